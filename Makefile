@@ -1,0 +1,61 @@
+# Everything runs in .venv, which the targets make as they need it. A stamp file in .venv stands for each set of
+# dependencies, and is made anew when pyproject.toml changes. The sets form a chain (lab, test, bench), so that two
+# targets made at once (make -j) never install at the same time.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+NOTEBOOK ?= notebooks/01_restore_a_section.ipynb
+NOTEBOOKS = $(wildcard notebooks/*.ipynb)
+AS_ROOT = $(if $(filter 0,$(shell id -u)),--allow-root)
+INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
+
+.DEFAULT_GOAL := help
+.PHONY: help lab test check format bench
+
+help:  ## say what can be made
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+lab: $(VENV)/.lab  ## open the notebook in JupyterLab (LAB_ARGS="--no-browser" and the like are passed on)
+	$(BIN)/jupyter lab $(AS_ROOT) $(LAB_ARGS) $(NOTEBOOK)
+
+# One thread a worker: pytest already runs as many workers as there are cores.
+test: $(VENV)/.test  ## run the tests (TEST_ARGS="-k picks" and the like are passed on)
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto $(TEST_ARGS)
+
+check: $(VENV)/.test  ## check style, the direction of imports, and that notebooks hold no output
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/lint-imports --no-logo
+	$(if $(NOTEBOOKS),$(BIN)/nbstripout --verify $(NOTEBOOKS))
+
+format: $(VENV)/.test  ## put code and notebooks into the form that check wants
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+	$(if $(NOTEBOOKS),$(BIN)/nbstripout $(NOTEBOOKS))
+
+bench: $(VENV)/.bench  ## measure, beside other libraries
+	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
+
+$(VENV)/.lab: pyproject.toml | $(BIN)/pip
+	@echo "installing what the lab needs"
+	@$(INSTALL) --editable '.[lab,fast]'
+	@touch $@
+
+$(VENV)/.test: pyproject.toml $(VENV)/.lab
+	@echo "installing what the tests need"
+	@$(INSTALL) --editable '.[lab,fast,test]'
+	@touch $@
+
+$(VENV)/.bench: pyproject.toml $(VENV)/.test
+	@echo "installing what the benchmarks need"
+	@$(INSTALL) --editable '.[lab,fast,test,bench]'
+	@touch $@
+
+$(BIN)/pip:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "seiswidgets needs Python 3.11 or newer; name one with make PYTHON=python3.12" >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+		{ echo "this Python cannot make a virtual environment; on Debian or Ubuntu: apt install python3-venv" >&2; exit 1; }
+	@echo "making $(VENV)"
+	@$(PYTHON) -m venv $(VENV)

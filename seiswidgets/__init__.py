@@ -1,0 +1,34 @@
+"""seiswidgets: seismic image restoration in a notebook.
+
+Unfault and flatten a seismic section after Gilardet, Guillon, Jobard and Komatitsch's method of nonlinear least
+squares shape optimisation. The public names are listed here once and loaded when they are first used.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submodules={"plot"},
+    submod_attrs={
+        "errors": [
+            "Cancelled",
+            "DataError",
+            "FlippedError",
+            "PickError",
+            "SectionError",
+            "SeiswidgetsError",
+            "SettingError",
+        ],
+        "geology": ["synthetic"],
+        "geology.cutoffs": ["heave", "throw"],
+        "geology.picks": ["Fault", "Horizon", "Interpretation"],
+        "geology.report": ["Report"],
+        "geology.restoration": ["Restoration"],
+        "geology.section": ["Section"],
+        "geology.stage": ["Stage"],
+        "geology.weights": ["Weights"],
+        "io": ["datasets"],
+    },
+)
+
+__version__ = "0.1.0"

@@ -1,0 +1,150 @@
+"""A triangle mesh as a value, and its cuts."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+
+def triangle_areas(vertices, triangles) -> np.ndarray:
+    """Signed areas of triangles, positive when their corners run from x to z; shape (m,)."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return 0.5 * ((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A triangle mesh at rest: where its vertices are before any deformation.
+
+    Parameters
+    ----------
+    vertices : array, shape (n, 2)
+        Positions in metres of rock. Two vertices may share a place: the two sides of a cut.
+    triangles : array, shape (m, 3)
+        Corners of each triangle, all in the same sense (positive area).
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+
+    def __post_init__(self):
+        for name, kind in (("vertices", float), ("triangles", np.int64)):
+            array = np.array(getattr(self, name), dtype=kind)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    def __repr__(self):
+        return f"<Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
+
+    @cached_property
+    def areas(self) -> np.ndarray:
+        """Area of each triangle, shape (m,)."""
+        return triangle_areas(self.vertices, self.triangles)
+
+    @cached_property
+    def half_edges(self) -> np.ndarray:
+        """Directed edges, three a triangle in its own order; shape (3 m, 2)."""
+        return self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+
+    @cached_property
+    def _edges_of_half_edges(self):
+        keys, inverse, counts = np.unique(self._keys(self.half_edges), return_inverse=True, return_counts=True)
+        return np.stack(np.divmod(keys, len(self.vertices)), axis=1), inverse, counts
+
+    def _keys(self, pairs):
+        return pairs.min(axis=1) * len(self.vertices) + pairs.max(axis=1)
+
+    @property
+    def edges(self) -> np.ndarray:
+        """Each edge once, its lower vertex first; shape (e, 2)."""
+        return self._edges_of_half_edges[0]
+
+    @cached_property
+    def boundary(self) -> np.ndarray:
+        """Edges with one triangle only, directed so that the mesh lies on one same side; shape (b, 2)."""
+        _, inverse, counts = self._edges_of_half_edges
+        return self.half_edges[counts[inverse] == 1]
+
+    @cached_property
+    def contour(self) -> np.ndarray:
+        """Each contour vertex between its neighbours along the boundary: rows (before, vertex, after)."""
+        arriving = self.boundary[np.argsort(self.boundary[:, 1])]
+        leaving = self.boundary[np.argsort(self.boundary[:, 0])]
+        return np.column_stack([arriving[:, 0], leaving])
+
+    @cached_property
+    def interior(self) -> np.ndarray:
+        """Indices of the vertices that are not on the contour."""
+        inside = np.ones(len(self.vertices), bool)
+        inside[self.boundary] = False
+        return np.flatnonzero(inside)
+
+    @cached_property
+    def blocks(self) -> np.ndarray:
+        """Label of the connected part that each vertex belongs to, counted from 0; shape (n,)."""
+        return _components(len(self.vertices), self.edges)
+
+    def cut(self, edges) -> "Cut":
+        """The mesh cut open along some of its edges.
+
+        Every corner of a triangle is a node; corners are joined across each edge that is not cut; each connected
+        set of corners is one vertex of the new mesh. So a cut's tip stays whole, and branches, crossings and cuts
+        that reach the border come apart, without any special case.
+
+        Parameters
+        ----------
+        edges : array, shape (k, 2)
+            Directed pairs of vertices that are edges of the mesh, with a triangle on either side.
+        """
+        _, edge, counts = self._edges_of_half_edges
+        order = np.argsort(edge, kind="stable")
+        twin = np.flatnonzero(counts[edge[order]] == 2).reshape(-1, 2)
+        one, other = order[twin].T  # the two half-edges of every inner edge; half-edge 3 t + k leaves corner 3 t + k
+        whole = ~np.isin(self._keys(self.half_edges[one]), self._keys(np.asarray(edges).reshape(-1, 2)))
+        one, other = one[whole], other[whole]
+        joined = np.concatenate([np.column_stack([one, _next(other)]), np.column_stack([_next(one), other])])
+        corner_vertex = _components(self.triangles.size, joined)
+        vertices = np.empty((corner_vertex.max() + 1, 2))
+        vertices[corner_vertex] = self.vertices[self.triangles.ravel()]
+        return Cut(self, Mesh(vertices, corner_vertex.reshape(-1, 3)))
+
+
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """A mesh before and after cutting: the triangles are the same, the vertices along the cuts are doubled."""
+
+    whole: Mesh
+    mesh: Mesh
+
+    def sides(self, edges) -> np.ndarray:
+        """The two copies of each directed edge of the whole mesh, shape (2, k, 2).
+
+        First the copies whose triangle follows the edge in its own sense (positive area: where x points right and z
+        down, the right-hand side of somebody walking along it), then the copies on the other side.
+        """
+        edges = np.asarray(edges)
+        return np.stack([self._copies(edges), self._copies(edges[:, ::-1])[:, ::-1]])
+
+    def _copies(self, directed):
+        count = len(self.whole.vertices)
+        keys = self.whole.half_edges @ [count, 1]
+        order = np.argsort(keys)
+        half_edge = order[np.searchsorted(keys, directed @ [count, 1], sorter=order)]
+        corners = self.mesh.triangles.ravel()
+        return np.column_stack([corners[half_edge], corners[_next(half_edge)]])
+
+    def copies(self, vertex: int) -> np.ndarray:
+        """The vertices of the cut mesh that one vertex of the whole mesh has become."""
+        return np.unique(self.mesh.triangles[self.whole.triangles == vertex])
+
+
+def _next(half_edge):
+    """The half-edge after this one in its triangle."""
+    return half_edge - 2 * (half_edge % 3 == 2) + (half_edge % 3 != 2)
+
+
+def _components(count, pairs):
+    graph = coo_array((np.ones(len(pairs), bool), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    return connected_components(graph, directed=False)[1].astype(np.int64)

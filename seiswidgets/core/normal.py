@@ -1,0 +1,139 @@
+"""The normal equations of a nonlinear least squares problem, put together quickly time after time."""
+
+import numpy as np
+
+from seiswidgets.core.cholesky import Cholesky
+from seiswidgets.core.terms import CONSTANT, MOVING
+
+
+class Gram:
+    """J^T J of a Jacobian: its places in the lower triangle, and its numbers for new numbers in J.
+
+    A place is the key column * size + row. Columns of J that are not among the unknowns are left out.
+    """
+
+    def __init__(self, jacobian, unknown, size):
+        self.first, self.second = _pairs_within_rows(jacobian.indptr)
+        one, other = unknown[jacobian.indices[self.first]], unknown[jacobian.indices[self.second]]
+        inner = (one >= 0) & (other >= 0)
+        self.first, self.second, one, other = (array[inner] for array in (self.first, self.second, one, other))
+        keys = np.minimum(one, other) * size + np.maximum(one, other)
+        self.keys = np.unique(keys)
+        self.place = np.searchsorted(self.keys, keys)
+
+    def numbers(self, data):
+        """The entries of J^T J at ``keys`` when ``data`` are the entries of J."""
+        return np.bincount(self.place, data[self.first] * data[self.second], minlength=len(self.keys))
+
+
+def _pairs_within_rows(pointers):
+    """All pairs of entries, each with itself too, that stand in the same row of a CSR matrix."""
+    lengths = np.diff(pointers)
+    pairs = [(np.empty(0, np.int64), np.empty(0, np.int64))]
+    for length in np.unique(lengths[lengths > 0]):
+        one, other = np.triu_indices(length)
+        start = pointers[:-1][lengths == length].astype(np.int64)[:, None]
+        pairs.append(((start + one).ravel(), (start + other).ravel()))
+    first, second = zip(*pairs, strict=True)
+    return np.concatenate(first), np.concatenate(second)
+
+
+class NormalEquations:
+    """Solves (J^T J + damping) step = -J^T r for the unknown coordinates, at one place after another.
+
+    The pattern of J^T J is found once for the terms whose Jacobians keep theirs, and widened only when a moving
+    term needs a new place; the matrix is then analysed anew, in the same order of elimination.
+
+    Parameters
+    ----------
+    terms : list of terms
+    free : array of bool, shape (n,)
+        The vertices that may move.
+    vertices : array, shape (n, 2)
+        Any positions; only their number matters.
+    """
+
+    def __init__(self, terms, free, vertices):
+        coordinates = np.repeat(free, 2)
+        self.size = int(coordinates.sum())
+        self._unknown = np.where(coordinates, np.cumsum(coordinates) - 1, -1)
+        self._coordinates = np.flatnonzero(coordinates)
+        self._terms = terms
+        self._gram = {}
+        self._constant = {}
+        diagonal = np.arange(self.size) * (self.size + 1)
+        keys = [diagonal]
+        for number, term in enumerate(terms):
+            if term.pattern == MOVING:
+                continue
+            jacobian = term.jacobian(vertices)
+            self._gram[number] = Gram(jacobian, self._unknown, self.size)
+            keys.append(self._gram[number].keys)
+            if term.pattern == CONSTANT:
+                self._constant[number] = jacobian
+        self.factorisations = self.analyses = 0
+        self._ordering = None
+        self._set_pattern(np.unique(np.concatenate(keys)))
+
+    def _set_pattern(self, keys):
+        self._keys = keys
+        columns, rows = np.divmod(keys, self.size)
+        pointers = np.searchsorted(columns, np.arange(self.size + 1))
+        self._diagonal = pointers[:-1]
+        self._cholesky = Cholesky(rows, pointers, self._ordering)
+        self._ordering = self._cholesky.ordering
+        self.analyses += 1
+        self._place = {number: np.searchsorted(keys, gram.keys) for number, gram in self._gram.items()}
+        self._unchanging = np.zeros(len(keys))
+        for number, jacobian in self._constant.items():
+            self._unchanging[self._place[number]] += self._gram[number].numbers(jacobian.data)
+
+    def at(self, terms, vertices):
+        """Take in the residuals and Jacobians at these positions.
+
+        Parameters
+        ----------
+        terms : list of terms
+            The terms given at first, the moving ones as they are now.
+        """
+        moving, gradient, steady = [], np.zeros(len(self._unknown)), []
+        for number, term in enumerate(terms):
+            jacobian = self._constant.get(number)
+            if jacobian is None:
+                jacobian = term.jacobian(vertices)
+                (moving if term.pattern == MOVING else steady).append((number, jacobian))
+            gradient += jacobian.T @ term.residual(vertices)
+        self._gradient = gradient[self._coordinates]
+        grams = [(Gram(jacobian, self._unknown, self.size), jacobian.data) for _, jacobian in moving]
+        self._widen([gram.keys for gram, _ in grams])
+        self._numbers = self._unchanging.copy()
+        for number, jacobian in steady:
+            self._numbers[self._place[number]] += self._gram[number].numbers(jacobian.data)
+        for gram, data in grams:
+            self._numbers[np.searchsorted(self._keys, gram.keys)] += gram.numbers(data)
+
+    def _widen(self, wanted):
+        keys = np.unique(np.concatenate([np.empty(0, np.int64), *wanted]))
+        place = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
+        new = keys[self._keys[place] != keys]
+        if len(new):
+            self._set_pattern(np.union1d(self._keys, new))
+
+    def step(self, damping: float):
+        """The damped step, shape (n, 2); 0 for the vertices that are held.
+
+        Parameters
+        ----------
+        damping : float
+            What is added to the diagonal, in units of its mean.
+        """
+        numbers = self._numbers.copy()
+        numbers[self._diagonal] += damping * numbers[self._diagonal].mean()
+        self.factorisations += 1
+        self._cholesky.factorise(numbers)
+        step = np.zeros(len(self._unknown))
+        step[self._coordinates] = -self._cholesky.solve(self._gradient)
+        return step.reshape(-1, 2)
+
+
+

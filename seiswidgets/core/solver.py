@@ -1,0 +1,164 @@
+"""Least squares solvers for the positions of a mesh's vertices."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import tril, vstack
+
+from seiswidgets.core.cholesky import Cholesky, NotPositiveDefinite
+from seiswidgets.core.mesh import triangle_areas
+from seiswidgets.core.normal import NormalEquations
+from seiswidgets.core.terms import MOVING
+from seiswidgets.errors import Cancelled
+
+LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the mean diagonal; the least only tames rigid motions that cost nothing
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Where a solver ended.
+
+    Attributes
+    ----------
+    vertices : array, shape (n, 2)
+    terms : list of terms, the moving ones as they were held at the end
+    iterations, factorisations : int
+    converged : bool
+        Whether the last full step moved no vertex by more than the tolerance.
+    energies : tuple of float
+        The energy at the start and after each iteration.
+    """
+
+    vertices: np.ndarray
+    terms: list
+    iterations: int
+    factorisations: int
+    converged: bool
+    energies: tuple
+
+
+def energy(terms, vertices) -> float:
+    """The sum of the squared residuals of all terms, in square metres."""
+    return float(sum(np.sum(term.residual(vertices) ** 2) for term in terms))
+
+
+def held_now(terms, vertices):
+    """The terms, with the partners of the moving ones chosen anew."""
+    return [term.at(vertices) if term.pattern == MOVING else term for term in terms]
+
+
+def first_flip(vertices, step, triangles) -> float:
+    """The share of a step at which the first triangle has no area left; infinity if none ever comes to that.
+
+    A triangle's area along a straight step is a quadratic; this is the least positive root of all of them.
+    """
+    constant = triangle_areas(vertices, triangles)
+    square = triangle_areas(step, triangles)
+    linear = triangle_areas(vertices + step, triangles) - constant - square
+    root = np.full(len(triangles), np.inf)
+    discriminant = linear**2 - 4 * square * constant
+    falls = (discriminant >= 0) & ((linear < 0) | (square < 0))
+    # this form of the root does not cancel, and holds for a vanishing square term
+    root[falls] = 2 * constant[falls] / (-linear[falls] + np.sqrt(discriminant[falls]))
+    return float(np.min(np.where(root > 0, root, np.inf), initial=np.inf))
+
+
+def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, progress=None) -> Solution:
+    """Minimise the energy by damped Gauss-Newton steps that never turn a triangle over.
+
+    Parameters
+    ----------
+    terms : list of terms
+    triangles : array, shape (m, 3)
+    start : array, shape (n, 2)
+        Positions without a flipped triangle.
+    free : array of bool, shape (n,)
+        The vertices that may move.
+    tolerance : float
+        Stop when a full step moves no vertex farther than this, in metres.
+    progress : callable(iteration, energy, vertices), optional
+        Called after each iteration; returning False cancels.
+
+    Raises
+    ------
+    Cancelled
+    """
+    vertices, damping = np.array(start, float), LEAST_DAMPING
+    terms = held_now(terms, vertices)
+    equations = NormalEquations(terms, free, vertices)
+    energies, converged = [energy(terms, vertices)], False
+    for iteration in range(1, max_iterations + 1):
+        equations.at(terms, vertices)
+        moved, damping, length = _descent(equations, terms, vertices, triangles, damping)
+        if moved is None:
+            break
+        full = length == 1 and damping <= LEAST_DAMPING
+        converged = full and np.max(np.abs(moved - vertices), initial=0) <= tolerance
+        vertices = moved
+        terms = held_now(terms, vertices)
+        energies.append(energy(terms, vertices))
+        _report(progress, iteration, energies[-1], vertices)
+        if converged:
+            break
+        damping = max(damping / 10, LEAST_DAMPING)
+    return Solution(vertices, terms, iteration, equations.factorisations, bool(converged), tuple(energies))
+
+
+def _descent(equations, terms, vertices, triangles, damping):
+    """A step that lowers the energy: the new vertices, the damping it took, and the share of the step that was gone."""
+    before = energy(terms, vertices)
+    while damping <= MOST_DAMPING:
+        try:
+            step = equations.step(damping)
+        except NotPositiveDefinite:
+            damping *= 100
+            continue
+        length = min(1.0, 0.9 * first_flip(vertices, step, triangles))
+        for _ in range(4):
+            moved = vertices + length * step
+            if triangle_areas(moved, triangles).min() > 0 and energy(terms, moved) <= before * (1 + 1e-12):
+                return moved, damping, length
+            length /= 2
+        damping *= 100
+    return None, damping, 0.0
+
+
+def fixed_point(terms, start, free, tolerance, max_iterations=1000, progress=None) -> Solution:
+    """The paper's solver (eq. 16): the targets lag behind, the matrix is factorised once.
+
+    Kept for teaching and comparison: it is slow, its block hardly slides since the targets pin the fault's vertices
+    where they were projected to, and nothing keeps its triangles from turning over.
+
+    Parameters and result are those of ``gauss_newton``; terms without ``rows`` (the area barrier) take no part.
+    """
+    vertices = np.array(start, float)
+    terms = held_now([term for term in terms if hasattr(term, "rows")], vertices)
+    matrix = vstack([term.rows for term in terms], format="csc")
+    unknown, held = matrix[:, free], matrix[:, ~free] @ vertices[~free]
+    factor = _normal_factor(unknown)
+    energies, converged = [energy(terms, vertices)], False
+    for iteration in range(1, max_iterations + 1):
+        targets = np.concatenate([term.target(vertices) for term in terms])
+        moved = vertices.copy()
+        moved[free] = factor.solve(unknown.T @ (targets - held))
+        converged = np.max(np.abs(moved - vertices), initial=0) <= tolerance
+        vertices = moved
+        terms = held_now(terms, vertices)
+        energies.append(energy(terms, vertices))
+        _report(progress, iteration, energies[-1], vertices)
+        if converged:
+            break
+    return Solution(vertices, terms, iteration, 1, bool(converged), tuple(energies))
+
+
+def _normal_factor(matrix):
+    lower = tril(matrix.T @ matrix, format="csc")
+    lower.sort_indices()
+    factor = Cholesky(lower.indices, lower.indptr)
+    factor.factorise(lower.data)
+    return factor
+
+
+def _report(progress, iteration, energy, vertices):
+    if progress is not None and progress(iteration, energy, vertices.copy()) is False:
+        raise Cancelled(f"cancelled after iteration {iteration}")

@@ -1,0 +1,120 @@
+"""From an outline and the lines inside it to a mesh. The only module that knows Triangle.
+
+J. R. Shewchuk, Triangle: engineering a 2D quality mesh generator and Delaunay triangulator, 1996.
+"""
+
+import numpy as np
+import shapely
+import triangle
+
+from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.errors import SettingError
+
+LEAST_ANGLE = 30  # degrees; Triangle is sure to end up to about 33
+LARGEST_AREA = 0.7  # of the squared spacing; the mean then comes close to the equilateral triangle's 0.43
+SNAP = 2.0**-24  # of the outline's width and height; what lies closer becomes one place
+TOO_MANY = 250_000
+TOO_FEW = 30
+
+
+def triangulate(outline, lines, spacing: float) -> Mesh:
+    """A mesh of an outline that has every line, and every crossing of two lines, among its edges.
+
+    Parameters
+    ----------
+    outline : shapely Polygon or MultiPolygon
+        What to fill; holes stay empty.
+    lines : list of shapely LineString
+        Lines to conform to; parts outside the outline are left out. The mesh is finer near points that lie
+        closer together than the spacing.
+    spacing : float
+        Typical length of an edge where nothing asks for less, in metres.
+
+    Raises
+    ------
+    SettingError
+        If so many vertices would be needed, or so few come out, that the mesh is of no use.
+    """
+    _check_count(outline, spacing)
+    vertices, segments = _graph(outline, shapely.segmentize(lines, spacing))
+    origin = np.array(outline.bounds[:2])
+    drawing = {"vertices": (vertices - origin) / spacing, "segments": segments}  # Triangle is at its best near 1
+    if holes := _holes(outline):
+        drawing["holes"] = (np.array(holes) - origin) / spacing
+    result = triangle.triangulate(drawing, f"pq{LEAST_ANGLE}a{LARGEST_AREA}S{TOO_MANY}")
+    return _mesh(result, origin, spacing)
+
+
+def triangulate_to(outline, lines, count: int) -> Mesh:
+    """The mesh of an outline and lines that has about a given number of vertices (within a tenth where it can)."""
+    spacing = np.sqrt(outline.area / (0.87 * count))
+    for _ in range(5):
+        mesh = triangulate(outline, lines, spacing)
+        if abs(len(mesh.vertices) / count - 1) < 0.1:
+            break
+        spacing *= np.clip(np.sqrt(len(mesh.vertices) / count), 0.5, 2)
+    return mesh
+
+
+def _check_count(outline, spacing):
+    count = int(outline.area / (0.87 * spacing**2)) + 1
+    if count > TOO_MANY:
+        least = np.sqrt(outline.area / (0.87 * TOO_MANY))
+        raise SettingError(
+            f"a mesh spacing of {spacing:g} m would make about {count:,} vertices; the limit is {TOO_MANY:,}: "
+            f"choose at least {least:.3g} m"
+        )
+
+
+def _graph(outline, lines):
+    """All lines noded together: places, and segments between them.
+
+    Noding is done where the outline's bounding box is the unit square: a rectangle's border is then kept exactly.
+    """
+    low, high = np.reshape(outline.bounds, (2, 2))
+    parts = [outline.boundary, *shapely.intersection(lines, outline)]
+    unit = shapely.transform(parts, lambda points: (points - low) / (high - low))
+    noded = shapely.get_parts(shapely.union_all(unit, grid_size=SNAP))
+    places, line = shapely.get_coordinates(noded[shapely.get_type_id(noded) == 1], return_index=True)
+    vertices, index = np.unique(places, axis=0, return_inverse=True)
+    along = np.flatnonzero((line[1:] == line[:-1]) & (index[1:] != index[:-1]))
+    return low + vertices * (high - low), np.column_stack([index[along], index[along + 1]])
+
+
+def _holes(outline):
+    rings = [ring for part in shapely.get_parts(outline) for ring in part.interiors]
+    return [shapely.Polygon(ring).representative_point().coords[0] for ring in rings]
+
+
+def _mesh(result, origin, spacing):
+    triangles = result.get("triangles", np.empty((0, 3), int))
+    used, renumbered = np.unique(triangles, return_inverse=True)
+    if len(used) < TOO_FEW:
+        raise SettingError(
+            f"a mesh spacing of {spacing:g} m makes only {len(used)} vertices; at least {TOO_FEW} are needed: choose less"
+        )
+    vertices = result["vertices"][used] * spacing + origin
+    triangles = renumbered.reshape(-1, 3)
+    inverted = triangle_areas(vertices, triangles) < 0
+    triangles[inverted] = triangles[inverted, ::-1]
+    return Mesh(vertices, triangles)
+
+
+def edges_along(mesh: Mesh, line) -> np.ndarray:
+    """The mesh's edges that lie on a line which it was made to conform to, in order and direction of the line.
+
+    Returns
+    -------
+    array, shape (k, 2)
+        Pairs of vertices.
+    """
+    tolerance = 4 * SNAP * np.ptp(mesh.vertices, axis=0).max()
+    shapely.prepare(line)
+    near = shapely.dwithin(line, shapely.points(mesh.vertices), tolerance)
+    edges = mesh.edges[near[mesh.edges].all(axis=1)]
+    middle = shapely.points(mesh.vertices[edges].mean(axis=1))
+    on_line = shapely.dwithin(line, middle, tolerance)
+    edges, middle = edges[on_line], middle[on_line]
+    edges = edges[np.argsort(shapely.line_locate_point(line, middle))]
+    along = shapely.line_locate_point(line, shapely.points(mesh.vertices[edges]))
+    return np.take_along_axis(edges, np.argsort(along, axis=1), axis=1)

@@ -1,0 +1,1 @@
+"""What the numbers mean: sections, faults, horizons and their restoration."""

@@ -1,0 +1,169 @@
+"""A seismic section: amplitudes on a regular grid, with spacing and units."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from seiswidgets.errors import SectionError
+
+METRES = {"m": 1.0, "km": 1000.0, "ft": 0.3048}
+SECONDS = {"s": 1.0, "ms": 0.001}
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """Amplitudes on a regular grid of traces and samples.
+
+    Points on a section are rows ``(x, z)``, z down, in the section's own units. Shapes are measured in rock:
+    a two-way time becomes a depth of half its product with the velocity.
+
+    Parameters
+    ----------
+    amplitude : array, shape (nz, nx)
+        One column a trace, one row a sample. NaN where there are no data.
+    dx, dz : float
+        Distance between traces, in ``x_unit``, and between samples, in ``z_unit``.
+    x0, z0 : float
+        Position of the first trace and the first sample.
+    x_unit : {"m", "km", "ft"}
+        Unit of x.
+    z_unit : {"m", "km", "ft", "ms", "s"}
+        Unit of z: a depth, or a two-way time, which needs a velocity.
+    velocity : float
+        Velocity of sound in the rock, in m/s; for two-way time only.
+    name, credit : str
+        What the section is, and whom its data are owed to; shown with its pictures.
+
+    Raises
+    ------
+    SectionError
+        If these do not make a section; the message says what must hold and what came.
+    """
+
+    amplitude: np.ndarray
+    dx: float
+    dz: float
+    x0: float = 0.0
+    z0: float = 0.0
+    x_unit: str = "m"
+    z_unit: str = "m"
+    velocity: float | None = None
+    name: str = ""
+    credit: str = ""
+
+    def __post_init__(self):
+        object.__setattr__(self, "amplitude", _checked_amplitude(self.amplitude))
+        for field in ("dx", "dz", "x0", "z0"):
+            object.__setattr__(self, field, _checked_number(field, getattr(self, field)))
+        for field in ("dx", "dz"):
+            if getattr(self, field) <= 0:
+                raise SectionError(f"{field} must be above 0, but is {getattr(self, field):g}")
+        if self.x_unit not in METRES:
+            raise SectionError(f"x_unit must be one of {', '.join(METRES)}, but is {self.x_unit!r}")
+        if self.z_unit not in METRES and self.z_unit not in SECONDS:
+            raise SectionError(f"z_unit must be one of {', '.join([*METRES, *SECONDS])}, but is {self.z_unit!r}")
+        object.__setattr__(self, "velocity", self._checked_velocity())
+
+    def _checked_velocity(self):
+        if self.velocity is None:
+            if self.is_time:
+                raise SectionError(
+                    f"a section in two-way time (z_unit={self.z_unit!r}) needs velocity=, in m/s, for its shapes to be "
+                    "kept in rock; 2000 suits shallow, soft sediment, 3500 well-compacted rock"
+                )
+            return None
+        if not self.is_time:
+            raise SectionError(f"a section in depth (z_unit={self.z_unit!r}) takes no velocity; leave it out")
+        velocity = _checked_number("velocity", self.velocity)
+        if velocity <= 0:
+            raise SectionError(f"velocity must be above 0 m/s, but is {velocity:g}")
+        return velocity
+
+    @property
+    def is_time(self) -> bool:
+        """Whether z is a two-way time."""
+        return self.z_unit in SECONDS
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of samples and of traces, ``(nz, nx)``."""
+        return self.amplitude.shape
+
+    @cached_property
+    def x(self) -> np.ndarray:
+        """Positions of the traces, shape (nx,)."""
+        return self.x0 + self.dx * np.arange(self.shape[1])
+
+    @cached_property
+    def z(self) -> np.ndarray:
+        """Positions of the samples, shape (nz,)."""
+        return self.z0 + self.dz * np.arange(self.shape[0])
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """First and last trace, first and last sample: ``(x_min, x_max, z_min, z_max)``."""
+        nz, nx = self.shape
+        return self.x0, self.x0 + self.dx * (nx - 1), self.z0, self.z0 + self.dz * (nz - 1)
+
+    @cached_property
+    def metres(self) -> np.ndarray:
+        """Metres of rock in one unit of x and one of z, shape (2,)."""
+        z = SECONDS[self.z_unit] * self.velocity / 2 if self.is_time else METRES[self.z_unit]
+        return np.array([METRES[self.x_unit], z])
+
+    def to_rock(self, points) -> np.ndarray:
+        """Points in metres of rock, in true proportions, from points in the section's units; shape (n, 2)."""
+        return np.asarray(points, float) * self.metres
+
+    def from_rock(self, points) -> np.ndarray:
+        """Points in the section's units from points in metres of rock; shape (n, 2)."""
+        return np.asarray(points, float) / self.metres
+
+    def contains(self, points) -> np.ndarray:
+        """Whether each point lies on the section, its border included; shape (n,) of bool."""
+        x, z = np.asarray(points, float).T
+        x_min, x_max, z_min, z_max = self.extent
+        return (x >= x_min) & (x <= x_max) & (z >= z_min) & (z <= z_max)
+
+    def __repr__(self):
+        nz, nx = self.shape
+        x_min, x_max, z_min, z_max = self.extent
+        speed = f", {self.velocity:g} m/s" if self.is_time else ""
+        name = f" {self.name!r}" if self.name else ""
+        credit = f"\n  data: {self.credit}" if self.credit else ""
+        return (
+            f"<Section{name}: {nx} traces x {nz} samples, x {x_min:g} to {x_max:g} {self.x_unit}, "
+            f"z {z_min:g} to {z_max:g} {self.z_unit}{speed}>{credit}"
+        )
+
+
+def _checked_number(name, value):
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise SectionError(f"{name} must be a number, but is {value!r}") from None
+    if not np.isfinite(number):
+        raise SectionError(f"{name} must be a finite number, but is {number}")
+    return number
+
+
+def _checked_amplitude(amplitude):
+    try:
+        array = np.array(amplitude)
+        array = array if array.dtype in (np.float32, np.float64) else array.astype(np.float64)
+    except (TypeError, ValueError):
+        raise SectionError("amplitudes must be an array of real numbers, of shape (samples, traces)") from None
+    if array.ndim != 2:
+        raise SectionError(
+            f"amplitudes must be 2-D, (samples, traces), but have {array.ndim} dimension(s), shape {array.shape}"
+        )
+    if min(array.shape) < 2:
+        raise SectionError(f"a section needs at least 2 samples and 2 traces, but the amplitudes have shape {array.shape}")
+    if np.isinf(array).any():
+        row, column = np.argwhere(np.isinf(array))[0]
+        raise SectionError(f"amplitudes must be finite, or NaN where there are none; sample {row} of trace {column} is infinite")
+    if np.isnan(array).all():
+        raise SectionError("all amplitudes are NaN; there is nothing to restore")
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,315 @@
+"""Known answers must be what they claim: picture, picks and true map agree in every case."""
+
+import numpy as np
+import pytest
+import shapely
+
+from seiswidgets.errors import SettingError
+from seiswidgets.geology import synthetic
+
+CASES = {
+    "planar": (synthetic.planar_fault, {}),
+    "planar, vertical": (synthetic.planar_fault, {"dip": 90}),
+    "planar, reverse": (synthetic.planar_fault, {"throw": -100}),
+    "listric 0.05": (synthetic.listric_fault, {"turn": 0.05}),
+    "listric 0.15": (synthetic.listric_fault, {"turn": 0.15}),
+    "listric 0.3": (synthetic.listric_fault, {"turn": 0.3}),
+    "graben": (synthetic.graben, {}),
+    "domino 1": (synthetic.domino, {"faults": 1, "turn": 12}),
+    "domino 5": (synthetic.domino, {}),
+    "domino 5, steep": (synthetic.domino, {"turn": 12, "dip": 75}),
+    "domino 15": (synthetic.domino, {"faults": 15, "turn": 12}),
+    "tilt": (synthetic.tilt, {}),
+    "tilt to the left": (synthetic.tilt, {"dip": -30}),
+    "fold 10": (synthetic.sine_fold, {"dip": 10}),
+    "fold 45": (synthetic.sine_fold, {"dip": 45}),
+    "fold 62": (synthetic.sine_fold, {"dip": 62}),
+    "blind": (synthetic.blind_fault, {}),
+    "blind, large slip": (synthetic.blind_fault, {"slip": 200}),
+    "blind, to the left": (synthetic.blind_fault, {"dip": 120}),
+    "faulted fold": (synthetic.faulted_fold, {}),
+    "faulted fold, one horizon": (synthetic.faulted_fold, {"horizons": (900.0,), "throw": 250}),
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def case(request):
+    build, settings = CASES[request.param]
+    return request.param, build(**settings)
+
+
+def samples(section):
+    return np.stack(np.meshgrid(section.x, section.z), axis=-1).reshape(-1, 2)
+
+
+def scattered(section, count=2000):
+    x_min, x_max, z_min, z_max = section.extent
+    return np.random.default_rng(1).uniform((x_min, z_min), (x_max, z_max), size=(count, 2))
+
+
+def shifted_in(piece, distance=1e-7):
+    """A piece whose ends are moved a little inwards, off the faults, where either side would do."""
+    piece = piece.copy()
+    for end, neighbour in ((0, 1), (-1, -2)):
+        inward = piece[neighbour] - piece[end]
+        piece[end] += distance * inward / np.linalg.norm(inward)
+    return piece
+
+
+def sagitta(fault):
+    """Farthest that an arc strays from the polyline through its evenly spaced points; 0 for a straight fault."""
+    if len(fault.points) == 2:
+        return 0.0
+    first, middle, last = fault.points[:3]
+    return 1.01 / 4 * shapely.LineString([first, last]).distance(shapely.Point(middle))
+
+
+def test_amplitude_is_the_trace_at_the_deposited_depth(case):
+    name, _ = case
+    build, settings = CASES[name]
+    answer = build(**settings, noise=0)
+    deposited = answer.to_restored(samples(answer.section))[:, 1]
+    expected = np.interp(deposited, *answer.trace.T).reshape(answer.section.shape)
+    np.testing.assert_allclose(answer.section.amplitude, expected, atol=1e-5)
+    assert answer.section.amplitude.dtype == np.float32
+
+
+def test_every_horizon_was_deposited_level(case):
+    _, answer = case
+    for horizon in answer.interpretation.horizons:
+        deposited = np.concatenate([answer.to_restored(shifted_in(piece))[:, 1] for piece in horizon.pieces])
+        np.testing.assert_allclose(deposited, deposited[0], atol=1e-6)
+
+
+def test_horizons_are_deposited_at_the_depths_asked_for():
+    answer = synthetic.graben(horizons=(500.0, 800.0))
+    deposited = [answer.to_restored(h.pieces[0])[0, 1] for h in answer.interpretation.horizons]
+    np.testing.assert_allclose(deposited, [500, 800], atol=1e-6)
+
+
+def test_horizons_are_strong_reflections(case):
+    _, answer = case
+    for horizon in answer.interpretation.horizons:
+        depth = answer.to_restored(shifted_in(horizon.pieces[0]))[0, 1]
+        near = abs(answer.trace[:, 0] - depth) < 15
+        peak = answer.trace[near][answer.trace[near, 1].argmax()]
+        assert abs(peak[0] - depth) < 10
+        assert peak[1] > 1
+
+
+def test_each_block_has_its_piece_of_every_horizon(case):
+    _, answer = case
+    blocks = len(answer.interpretation.faults) + 1  # for a blind fault, its two sides
+    for horizon in answer.interpretation.horizons:
+        assert len(horizon.pieces) == blocks
+        if answer.fixed is not None:
+            inside = [set(answer.block(shifted_in(piece))) for piece in horizon.pieces]
+            assert inside == [{number} for number in range(len(horizon.pieces))]
+
+
+def test_picks_lie_on_the_section_and_are_dense(case):
+    _, answer = case
+    for fault in answer.interpretation.faults:
+        assert answer.section.contains(fault.points).all()
+    for horizon in answer.interpretation.horizons:
+        for piece in horizon.pieces:
+            assert answer.section.contains(piece).all()
+            assert np.linalg.norm(np.diff(piece, axis=0), axis=1).max() < 75
+
+
+def test_cutoffs_lie_on_their_fault_and_were_one_point(case):
+    _, answer = case
+    for horizon in answer.interpretation.horizons:
+        for number, fault in enumerate(answer.interpretation.faults):
+            footwall, hanging_wall = horizon.pieces[number : number + 2]
+            line = shapely.LineString(fault.points)
+            for cutoff in (footwall[-1], hanging_wall[0]):
+                assert line.distance(shapely.Point(cutoff)) < 1e-6 + sagitta(fault)
+            before = [shifted_in(footwall)[-1], shifted_in(hanging_wall)[0]]
+            assert np.linalg.norm(footwall[-1] - hanging_wall[0]) > 10
+            for back in (answer.to_unfaulted, answer.to_restored):
+                np.testing.assert_allclose(*back(before), atol=1e-6)
+
+
+def test_blocks_move_rigidly(case):
+    name, answer = case
+    if name.startswith("blind"):
+        pytest.skip("the rock around a blind fault bends")
+    points = scattered(answer.section)
+    block = answer.block(points)
+    for number in np.unique(block):
+        here = points[block == number]
+        before = answer.to_unfaulted(here)
+        np.testing.assert_allclose(np.linalg.norm(before - before[0], axis=1), np.linalg.norm(here - here[0], axis=1))
+
+
+def test_block_zero_holds_the_fixed_point_and_stays(case):
+    _, answer = case
+    if answer.fixed is None:
+        assert not answer.block(scattered(answer.section)).any()
+        return
+    assert answer.block([answer.fixed]) == [0]
+    for fault in answer.interpretation.faults:
+        assert shapely.LineString(fault.points).distance(shapely.Point(answer.fixed)) > 200
+    np.testing.assert_allclose(answer.to_unfaulted([answer.fixed]), [answer.fixed], atol=1e-12)
+
+
+def test_cut_through_or_not():
+    assert synthetic.blind_fault().fixed is None
+    assert synthetic.tilt().fixed is None
+    assert synthetic.sine_fold().fixed is None
+    assert synthetic.planar_fault().fixed is not None
+
+
+def test_a_case_without_a_fault_is_unfaulted_already():
+    answer = synthetic.sine_fold()
+    points = scattered(answer.section)
+    np.testing.assert_array_equal(answer.to_unfaulted(points), points)
+
+
+@pytest.mark.parametrize("throw", [50, 150, 300])
+def test_planar_fault_has_its_throw(throw):
+    (footwall, hanging_wall), *_ = (h.pieces for h in synthetic.planar_fault(throw=throw).interpretation.horizons)
+    assert hanging_wall[0, 1] - footwall[-1, 1] == pytest.approx(throw)
+
+
+@pytest.mark.parametrize("turn", [0.05, 0.15, 0.3])
+def test_listric_hanging_wall_turns_by_the_angle(turn):
+    piece = synthetic.listric_fault(turn=turn).interpretation.horizons[0].pieces[1]
+    along = piece[-1] - piece[0]
+    assert np.arctan2(-along[1], along[0]) == pytest.approx(turn)
+
+
+def test_graben_opens_sideways_by_twice_the_heave():
+    answer = synthetic.graben(throw=120, dip=60)
+    right = np.array([[3900.0, 1000.0]])
+    np.testing.assert_allclose(right - answer.to_unfaulted(right), [[2 * 120 / np.tan(np.pi / 3), 0]])
+    left, right = (fault.points for fault in answer.interpretation.faults)
+    assert (left[:, 0] < right[:, 0]).all()
+
+
+@pytest.mark.parametrize("faults", [1, 5, 15])
+def test_domino_blocks_keep_their_centres_depth(faults):
+    answer = synthetic.domino(faults=faults, turn=12)
+    middle = np.array([fault.points.mean(axis=0) for fault in answer.interpretation.faults])
+    apart = 500 / np.sin(np.pi / 3)
+    centres = np.vstack([middle - [apart / 2, 0], middle[-1] + [apart / 2, 0]])
+    np.testing.assert_allclose(answer.to_restored(centres)[:, 1], centres[:, 1])
+    beds = answer.interpretation.horizon("H2").pieces
+    for piece in beds:
+        along = piece[-1] - piece[0]
+        assert np.rad2deg(np.arctan2(-along[1], along[0])) == pytest.approx(12)
+
+
+@pytest.mark.parametrize("faults", [1, 15])
+def test_domino_faults_cross_the_section(faults):
+    answer = synthetic.domino(faults=faults, turn=12)
+    assert len(answer.interpretation.faults) == faults
+    for fault in answer.interpretation.faults:
+        np.testing.assert_array_equal(fault.points[:, 1], [0, 2000])
+    assert answer.section.extent[1] >= 2000
+
+
+@pytest.mark.parametrize("dip", [10, 30, 45, 62])
+def test_sine_fold_dips_as_asked(dip):
+    answer = synthetic.sine_fold(dip=dip)
+    x = np.linspace(0, 4000, 20001)
+    shift = 1000 - answer.to_restored(np.column_stack([x, np.full_like(x, 1000)]))[:, 1]
+    assert np.rad2deg(np.arctan(abs(np.gradient(shift, x)).max())) == pytest.approx(dip, abs=0.01)
+    for horizon in answer.interpretation.horizons:
+        np.testing.assert_array_equal(horizon.pieces[0][[0, -1], 0], [0, 4000])
+
+
+@pytest.mark.parametrize("slip", [20, 60, 150])
+def test_blind_slip_is_elliptic_and_vanishes_at_the_tips(slip):
+    answer = synthetic.blind_fault(slip=slip, dip=60, length=900)
+    down, across = np.array([0.5, np.sqrt(0.75)]), np.array([np.sqrt(0.75), -0.5])
+    centre, t = np.array([2000, 1000]), np.linspace(-0.99, 0.99, 199)
+    size = slip / 2 * np.sqrt(1 - t**2)
+    deposited = centre + 450 * np.outer(t, down)
+    for side in (-1, 1):
+        today = deposited + side * np.outer(size, down)
+        inside = abs((today - centre) @ down) < 450
+        back = answer.to_restored(today + side * 1e-9 * across)
+        np.testing.assert_allclose(back[inside], deposited[inside], atol=1e-5)
+    ahead = centre + 450 * np.outer([-2, -1.2, 1.2, 2], down)
+    np.testing.assert_allclose(answer.to_restored(ahead), ahead, atol=1e-6)
+
+
+@pytest.mark.parametrize("slip", [20, 60, 200])
+def test_blind_restoration_inverts_the_slip(slip):
+    """Forward through the crack's displacement in its textbook form, then back."""
+    answer = synthetic.blind_fault(slip=slip, dip=60, length=900)
+    deposited = scattered(answer.section)
+    down, across = np.array([0.5, np.sqrt(0.75)]), np.array([np.sqrt(0.75), -0.5])
+    zeta = ((deposited - (2000, 1000)) @ down + 1j * (deposited - (2000, 1000)) @ across) / 450
+    inverse = [np.roots([1, -2 * point, 1]) for point in zeta]  # zeta -+ sqrt(zeta^2 - 1): the one that decays
+    displacement = -slip / 2 * np.array([min(roots, key=abs).imag for roots in inverse])
+    today = deposited + np.outer(displacement, down)
+    # nearer to a tip than this, the displacement maps two points onto one
+    tips = answer.interpretation.faults[0].points
+    clear = (np.linalg.norm(today[:, None] - tips, axis=2) > slip**2 / (4 * 900)).all(axis=1)
+    assert clear.mean() > 0.999
+    np.testing.assert_allclose(answer.to_restored(today)[clear], deposited[clear], atol=1e-6)
+
+
+def test_blind_restoration_is_finite_everywhere():
+    answer = synthetic.blind_fault(slip=200)
+    tip = answer.interpretation.faults[0].points[0]
+    near = tip + np.random.default_rng(0).normal(scale=3, size=(5000, 2))
+    moved = np.linalg.norm(answer.to_restored(np.vstack([near, tip])) - np.vstack([near, tip]), axis=1)
+    assert moved.max() < 100
+
+
+def test_seeds_reproduce_and_differ():
+    one, same, other = (synthetic.faulted_fold(seed=seed).section.amplitude for seed in (1, 1, 2))
+    np.testing.assert_array_equal(one, same)
+    assert abs(one - other).max() > 1
+
+
+def test_noise_has_the_level_stated():
+    clean, noisy = (synthetic.planar_fault(noise=noise).section.amplitude for noise in (0, 0.2))
+    assert (noisy - clean).std() == pytest.approx(0.2, rel=0.01)
+
+
+def test_survey_sets_size_and_spacing():
+    section = synthetic.planar_fault(width=3000, depth=1800, dx=25, dz=10, horizons=(700.0,)).section
+    assert section.extent == (0, 3000, 0, 1800)
+    assert section.shape == (181, 121)
+
+
+@pytest.mark.parametrize(
+    ("build", "settings", "message"),
+    [
+        (synthetic.domino, {"faults": 0}, "faults must be from 1 to 15, but is 0"),
+        (synthetic.domino, {"faults": 16}, "faults must be from 1 to 15, but is 16"),
+        (synthetic.domino, {"turn": 40}, "turn must be from 0 to 15 degrees, but is 40"),
+        (synthetic.listric_fault, {"turn": -0.1}, "turn must be from 0 to 0.4 radians"),
+        (synthetic.listric_fault, {"radius": 2500}, "must run from the top of the section to its border"),
+        (
+            synthetic.listric_fault,
+            {"radius": 6000, "turn": 0.3},
+            "the horizon at 900 m must have one piece in each block",
+        ),
+        (synthetic.planar_fault, {"dip": 20}, "fault F1 must run from the top of the section"),
+        (synthetic.planar_fault, {"dip": np.nan}, "dip must be from 20 to 90 degrees, but is nan"),
+        (synthetic.planar_fault, {"throw": 700}, "the horizon at 1400 m must have one piece .* block 1 has none"),
+        (synthetic.planar_fault, {"horizons": (2500.0,)}, "the horizon at 2500 m"),
+        (synthetic.sine_fold, {"dip": 70}, "the horizon at 750 m must have one piece"),
+        (synthetic.sine_fold, {"dip": 80}, "dip must be from 0 to 75 degrees"),
+        (synthetic.blind_fault, {"length": 4000}, "fault F1 must end inside the section"),
+        (synthetic.blind_fault, {"slip": 800}, "slip must be from 0 to 225 m"),
+        (synthetic.blind_fault, {"horizons": (300.0,)}, "the horizon at 300 m must have one piece"),
+        (synthetic.graben, {"floor": 0}, "floor must be from 10"),
+        (synthetic.tilt, {"noise": -1}, "noise must be from 0 to 10, but is -1"),
+        (synthetic.tilt, {"depth": 1e9}, "depth must be from 500 to 5000"),
+    ],
+)
+def test_settings_out_of_range_are_refused(build, settings, message):
+    with pytest.raises(SettingError, match=message):
+        build(**settings)
+
+
+def test_a_misspelt_setting_is_refused():
+    with pytest.raises(TypeError, match="nois"):
+        synthetic.tilt(nois=0.1)
