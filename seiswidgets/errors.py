@@ -22,7 +22,17 @@ class DataError(SeiswidgetsError, OSError):
 
 
 class FlippedError(SeiswidgetsError):
-    """A solution would turn triangles over, so that it maps two places onto one."""
+    """A solution would turn triangles over, so that it maps two places onto one.
+
+    Attributes
+    ----------
+    count : int
+        How many triangles.
+    """
+
+    def __init__(self, message, count):
+        super().__init__(message)
+        self.count = count
 
 
 class Cancelled(SeiswidgetsError):

@@ -73,6 +73,9 @@ class SuperLU:
                 self._factor = splu(matrix.tocsc(), **options)
             except (RuntimeError, MatrixRankWarning):
                 raise NotPositiveDefinite from None
+        pivoted = (self._factor.perm_r != self._factor.perm_c).any()
+        if pivoted or self._factor.U.diagonal().min(initial=1) <= 0:
+            raise NotPositiveDefinite
 
     def solve(self, right):
         return self._factor.solve(np.asarray(right, float))

@@ -118,27 +118,44 @@ class Contact:
         along, arm = stop - start, vertices[points] - start
         length = np.maximum(np.hypot(along[..., 0], along[..., 1]), np.finfo(float).tiny)
         normal = along[..., ::-1] * [-1, 1] / length[..., None]
-        return np.sum(along * arm, axis=-1) / length**2, np.sum(normal * arm, axis=-1), normal, along
+        foot = np.sum(along / length[..., None] * arm, axis=-1) / length
+        return foot, np.sum(normal * arm, axis=-1), normal, along
 
     def _pairs(self):
         held = self.partner >= 0
         return self.points[held], self.segments[self.partner[held]]
 
     def _distance(self, along, distance):
-        return distance + self.lift[self.partner >= 0] - np.sum(np.vander(along, 3, increasing=True) * self._held_bulge, axis=1)
+        return (
+            distance
+            + self.lift[self.partner >= 0]
+            - np.sum(np.vander(along, 3, increasing=True) * self._held_bulge, axis=1)
+        )
 
     @property
     def _held_bulge(self):
         return self.bulge[self.partner[self.partner >= 0]]
 
-    def residual(self, vertices):
+    def distances(self, vertices) -> np.ndarray:
+        """Signed distance of each held point from the smooth fault of the other side, in metres."""
         along, distance, _, _ = self._feet(vertices, *self._pairs())
-        return self.weight * self._distance(along, distance)
+        return self._distance(along, distance)
+
+    def lengths(self, rest) -> np.ndarray:
+        """Length of fault that each held point stands for, in metres; ``rest`` are all vertices at rest."""
+        places = rest[self.segments].mean(axis=1)
+        half = np.hypot(*(rest[self.segments[:, 1]] - rest[self.segments[:, 0]]).T) / 2
+        near = np.argsort(np.linalg.norm(rest[self.points][:, None] - places[None], axis=2), axis=1)[:, :2]
+        return half[near].sum(axis=1)[self.partner >= 0]
+
+    def residual(self, vertices):
+        return self.weight * self.distances(vertices)
 
     def jacobian(self, vertices):
         points, segments = self._pairs()
         foot, distance, normal, along = self._feet(vertices, points, segments)
-        slope = (self._held_bulge[:, 1] + 2 * self._held_bulge[:, 2] * foot) / np.sum(along**2, axis=1)
+        squared = np.maximum(np.sum(along**2, axis=1), np.finfo(float).tiny)
+        slope = (self._held_bulge[:, 1] + 2 * self._held_bulge[:, 2] * foot) / squared
         foot, distance, slope = foot[:, None], distance[:, None], slope[:, None]
         by_point = normal - slope * along
         by_stop = -foot * normal - slope * (distance * normal - foot * along)
@@ -158,8 +175,7 @@ class Contact:
 
 
 def contacts(mesh, sides, line, weight, name) -> tuple[Contact, Contact]:
-    """The contact of either side of a fault with the other, averaged: what one side's corners get wrong, the other
-    side's get right.
+    """The contact of either side of a fault with the other: what one side's corners get wrong, the other's get right.
 
     Parameters
     ----------

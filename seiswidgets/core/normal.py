@@ -128,12 +128,9 @@ class NormalEquations:
             What is added to the diagonal, in units of its mean.
         """
         numbers = self._numbers.copy()
-        numbers[self._diagonal] += damping * numbers[self._diagonal].mean()
+        numbers[self._diagonal] += damping * numbers[self._diagonal].sum() / max(self.size, 1)
         self.factorisations += 1
         self._cholesky.factorise(numbers)
         step = np.zeros(len(self._unknown))
         step[self._coordinates] = -self._cholesky.solve(self._gradient)
         return step.reshape(-1, 2)
-
-
-

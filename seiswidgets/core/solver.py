@@ -89,7 +89,7 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     energies, converged = [energy(terms, vertices)], False
     for iteration in range(1, max_iterations + 1):
         equations.at(terms, vertices)
-        moved, damping, length = _descent(equations, terms, vertices, triangles, damping)
+        moved, damping, length = _descent(equations, terms, vertices, triangles, damping, tolerance)
         if moved is None:
             break
         full = length == 1 and damping <= LEAST_DAMPING
@@ -104,8 +104,11 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     return Solution(vertices, terms, iteration, equations.factorisations, bool(converged), tuple(energies))
 
 
-def _descent(equations, terms, vertices, triangles, damping):
-    """A step that lowers the energy: the new vertices, the damping it took, and the share of the step that was gone."""
+def _descent(equations, terms, vertices, triangles, damping, tolerance):
+    """A step that lowers the energy: the new vertices, the damping it took, and the share of the step that was gone.
+
+    A step within the tolerance is taken as it is: rounding would hide what it gains.
+    """
     before = energy(terms, vertices)
     while damping <= MOST_DAMPING:
         try:
@@ -114,6 +117,8 @@ def _descent(equations, terms, vertices, triangles, damping):
             damping *= 100
             continue
         length = min(1.0, 0.9 * first_flip(vertices, step, triangles))
+        if length == 1 and np.max(np.abs(step), initial=0) <= tolerance:
+            return vertices + step, damping, length
         for _ in range(4):
             moved = vertices + length * step
             if triangle_areas(moved, triangles).min() > 0 and energy(terms, moved) <= before * (1 + 1e-12):

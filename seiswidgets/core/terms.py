@@ -231,4 +231,6 @@ def coordinates(vertices):
 def sparse_rows(columns, data, width):
     """A sparse matrix whose rows all have the same number of entries, given row by row."""
     pointers = np.arange(len(columns) + 1) * columns.shape[1]
-    return csr_array((np.ascontiguousarray(data, float).ravel(), columns.ravel(), pointers), shape=(len(columns), width))
+    return csr_array(
+        (np.ascontiguousarray(data, float).ravel(), columns.ravel(), pointers), shape=(len(columns), width)
+    )

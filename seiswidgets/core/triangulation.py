@@ -13,6 +13,7 @@ from seiswidgets.errors import SettingError
 LEAST_ANGLE = 30  # degrees; Triangle is sure to end up to about 33
 LARGEST_AREA = 0.7  # of the squared spacing; the mean then comes close to the equilateral triangle's 0.43
 SNAP = 2.0**-24  # of the outline's width and height; what lies closer becomes one place
+DENSITY = 1.15  # vertices in a square whose side is the spacing
 TOO_MANY = 250_000
 TOO_FEW = 30
 
@@ -47,7 +48,7 @@ def triangulate(outline, lines, spacing: float) -> Mesh:
 
 def triangulate_to(outline, lines, count: int) -> Mesh:
     """The mesh of an outline and lines that has about a given number of vertices (within a tenth where it can)."""
-    spacing = np.sqrt(outline.area / (0.87 * count))
+    spacing = np.sqrt(outline.area * DENSITY / count)
     for _ in range(5):
         mesh = triangulate(outline, lines, spacing)
         if abs(len(mesh.vertices) / count - 1) < 0.1:
@@ -57,12 +58,12 @@ def triangulate_to(outline, lines, count: int) -> Mesh:
 
 
 def _check_count(outline, spacing):
-    count = int(outline.area / (0.87 * spacing**2)) + 1
+    count = int(outline.area * DENSITY / spacing**2)
     if count > TOO_MANY:
-        least = np.sqrt(outline.area / (0.87 * TOO_MANY))
+        least = 1.01 * np.sqrt(outline.area * DENSITY / TOO_MANY)
         raise SettingError(
             f"a mesh spacing of {spacing:g} m would make about {count:,} vertices; the limit is {TOO_MANY:,}: "
-            f"choose at least {least:.3g} m"
+            f"choose at least {least:.4g} m"
         )
 
 

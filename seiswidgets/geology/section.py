@@ -159,10 +159,12 @@ def _checked_amplitude(amplitude):
             f"amplitudes must be 2-D, (samples, traces), but have {array.ndim} dimension(s), shape {array.shape}"
         )
     if min(array.shape) < 2:
-        raise SectionError(f"a section needs at least 2 samples and 2 traces, but the amplitudes have shape {array.shape}")
+        raise SectionError(f"amplitudes must be at least 2 samples by 2 traces, but have shape {array.shape}")
     if np.isinf(array).any():
         row, column = np.argwhere(np.isinf(array))[0]
-        raise SectionError(f"amplitudes must be finite, or NaN where there are none; sample {row} of trace {column} is infinite")
+        raise SectionError(
+            f"amplitudes must be finite, or NaN where there are none; sample {row} of trace {column} is infinite"
+        )
     if np.isnan(array).all():
         raise SectionError("all amplitudes are NaN; there is nothing to restore")
     array.setflags(write=False)

@@ -1,0 +1,82 @@
+"""What a deformation has done to each triangle, and how that is distributed over the section."""
+
+import numpy as np
+
+from seiswidgets.core.mapping import PiecewiseAffineMap
+from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.errors import SettingError
+
+LEAST_SPAN = 1.01  # of a histogram whose areas have all stayed the same
+
+
+def area_ratio(mesh: Mesh, vertices) -> np.ndarray:
+    """Initial over final area of each triangle, above 1 where it was compressed (fig. 6d); shape (m,).
+
+    Parameters
+    ----------
+    mesh : Mesh
+    vertices : array, shape (n, 2)
+        Where the mesh's vertices are after the deformation.
+    """
+    return mesh.areas / triangle_areas(np.asarray(vertices, float), mesh.triangles)
+
+
+def principal_stretches(mesh: Mesh, vertices) -> np.ndarray:
+    """Singular values of each triangle's affine map, the larger first; shape (m, 2).
+
+    Parameters
+    ----------
+    mesh : Mesh
+    vertices : array, shape (n, 2)
+        Where the mesh's vertices are after the deformation.
+    """
+    (xx, xz), (zx, zz) = PiecewiseAffineMap(mesh.vertices, vertices, mesh.triangles).gradient.transpose(1, 2, 0)
+    larger = (np.hypot(xx + zz, zx - xz) + np.hypot(xx - zz, zx + xz)) / 2
+    smaller = np.abs(xx * zz - xz * zx) / np.maximum(larger, np.finfo(float).tiny)
+    return np.column_stack([larger, smaller])
+
+
+def area_ratio_histogram(ratio, areas, bins: int = 41, span: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Edges of bins of area ratio, shape (bins + 1,), and the share of the area in each, shape (bins,).
+
+    The edges run from 1 / span to span, evenly in the logarithm; an odd number of bins has one about 1. What lies
+    beyond the ends is counted in the end bins.
+
+    Parameters
+    ----------
+    ratio, areas : array, shape (m,)
+        Area ratio and initial area of each triangle.
+    bins : int
+    span : float, optional
+        Largest ratio, above 1; by default the farthest from 1 that occurs, either way.
+
+    Raises
+    ------
+    SettingError
+        If the span is not above 1.
+    """
+    if span is None:
+        span = max(np.max(ratio), 1 / np.min(ratio), LEAST_SPAN)
+    if not span > 1:
+        raise SettingError(f"a histogram of area ratios runs from 1 / span to span: span must be above 1, not {span:g}")
+    edges = span ** np.linspace(-1, 1, bins + 1)
+    bin_of_triangle = np.searchsorted(edges[1:-1], ratio, side="right")
+    return edges, np.bincount(bin_of_triangle, weights=areas, minlength=bins) / np.sum(areas)
+
+
+def weighted_percentiles(values, weights, percents) -> np.ndarray:
+    """Percentiles of values that count by their weights, as areas; shape of ``percents``.
+
+    Each value stands at the middle of its own weight, and between values the percentile is linear (Hazen's rule).
+
+    Parameters
+    ----------
+    values, weights : array, shape (m,)
+    percents : array
+        From 0 to 100.
+    """
+    order = np.argsort(values)
+    sorted_weights = np.asarray(weights, float)[order]
+    through = np.cumsum(sorted_weights)
+    middle = 100 * (through - sorted_weights / 2) / through[-1]
+    return np.interp(percents, middle, np.asarray(values, float)[order])

@@ -1,0 +1,318 @@
+"""Where horizons meet faults: their cut-offs, and the throw and heave that follow.
+
+A cut-off is where a piece of a horizon ends at a fault. Pieces are seldom drawn to the fault exactly: one that ends
+short is extended along its last stretch, by a fifth of its length at most; one that overshoots is trimmed.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+from shapely import LineString, Point
+from shapely.ops import substring
+
+from seiswidgets.errors import PickError
+from seiswidgets.geology.picks import Fault, Horizon
+
+WALLS = {1: "hanging wall", -1: "footwall"}
+EXTENSION = 0.2  # of a piece's length: how far it is extended to a fault, and how short an overshoot is
+
+
+@dataclass(frozen=True)
+class End:
+    """An end of a piece at a fault.
+
+    Attributes
+    ----------
+    fault : int
+        Which of the faults.
+    point : tuple (x, z)
+    side : int
+        1 where the piece lies in the hanging wall, -1 in the footwall.
+    gap : float
+        How far the piece had to be extended.
+    """
+
+    fault: int
+    point: tuple[float, float]
+    side: int
+    gap: float
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A piece of a horizon, or what a fault leaves of it, drawn on to the faults at its ends.
+
+    Attributes
+    ----------
+    line : shapely LineString
+    ends : the End at its first and at its last point, None where it ends freely
+    number : int
+        Of the piece as it was drawn, from 1.
+    short : bool
+        Whether it is a short end beyond a fault, which counts only if no other piece lies there.
+    """
+
+    line: LineString
+    ends: tuple[End | None, End | None]
+    number: int
+    short: bool = False
+
+
+@dataclass(frozen=True)
+class CutOffs:
+    """The two cut-offs of a horizon at a fault.
+
+    Attributes
+    ----------
+    fault, horizon : str
+        Their names.
+    hanging_wall, footwall : tuple of int
+        Each a part's index, and the end of it (0 or -1).
+    """
+
+    fault: str
+    horizon: str
+    hanging_wall: tuple[int, int]
+    footwall: tuple[int, int]
+
+
+def parts(pieces: Sequence[LineString], faults: Sequence[LineString]) -> list[Part]:
+    """The pieces of a horizon, split where they cross faults and extended to the faults they end short of.
+
+    A short end beyond a fault is left out if another piece lies there: then it is an overshoot.
+    """
+    split = [part for number, piece in enumerate(pieces, 1) for part in split_piece(piece, faults, number)]
+    found = [_extended(part, faults) for part in split]
+    claimed = {(end.fault, end.side) for part in found if not part.short for end in part.ends if end}
+    return [
+        part for part in found if not (part.short and any((end.fault, end.side) in claimed for end in part.ends if end))
+    ]
+
+
+def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1) -> list[Part]:
+    """A line in parts, cut where it crosses faults."""
+    crossings = sorted(
+        (piece.project(point), number)
+        for number, fault in enumerate(faults)
+        for point in _points(piece.intersection(fault))
+    )
+    length = piece.length
+    inner = [(way, fault) for way, fault in crossings if 1e-9 * length < way < (1 - 1e-9) * length]
+    stops = [(0.0, None), *inner, (length, None)]
+    found = []
+    for (start, first), (stop, last) in zip(stops[:-1], stops[1:], strict=True):
+        if stop - start <= 1e-9 * length:
+            continue
+        line = substring(piece, start, stop)
+        ends = tuple(
+            None if fault is None else _end(line, place, fault, faults[fault], line.coords[place])
+            for fault, place in ((first, 0), (last, -1))
+        )
+        outer = (first is None) != (last is None)
+        found.append(Part(line, ends, number, outer and stop - start < EXTENSION * length))
+    return found
+
+
+def _extended(part, faults):
+    """A part with its free ends drawn on to the first fault in reach."""
+    points, ends = list(part.line.coords), list(part.ends)
+    for place in (0, -1):
+        end = ends[place] or _reached(part.line, place, faults, EXTENSION * part.line.length)
+        if end and end.gap > 0:
+            points.insert(0 if place == 0 else len(points), end.point)
+        elif end:
+            points[place] = end.point
+        ends[place] = end
+    return replace(part, line=LineString(points), ends=tuple(ends))
+
+
+def _reached(line, place, faults, reach):
+    """The End at the first fault that a line meets when it is drawn on by so much, or None."""
+    tip, direction = _heading(line, place)
+    touch = 1e-6 * line.length
+    ray = LineString([tip, tip + (reach + touch) * direction])
+    met = [
+        (max(0.0, Point(tip).distance(point)), number, point.coords[0])
+        for number, fault in enumerate(faults)
+        for point in [*_points(ray.intersection(fault)), *_touched(fault, tip, touch)]
+    ]
+    if not met:
+        return None
+    gap, number, point = min(met)
+    return _end(line, place, number, faults[number], point, gap if gap > touch else 0.0)
+
+
+def _touched(fault, tip, touch):
+    near = fault.interpolate(fault.project(Point(tip)))
+    return [near] if near.distance(Point(tip)) <= touch else []
+
+
+def _heading(line, place):
+    """An end of a line and the direction in which it goes on there, from the last tenth of its length."""
+    back = line.interpolate(0.1 if place == 0 else 0.9, normalized=True).coords[0]
+    tip = np.array(line.coords[place])
+    arm = tip - back
+    return tip, arm / np.hypot(*arm)
+
+
+def _end(line, place, number, fault, point, gap=0.0):
+    inside = line.interpolate(0.05 if place == 0 else 0.95, normalized=True)
+    return End(number, tuple(point), hanging_side(fault, point, inside.coords[0]), gap)
+
+
+def hanging_side(fault: LineString, place, point) -> int:
+    """1 if a point lies above a fault, in its hanging wall, as seen from a place on it; -1 if in its footwall.
+
+    Where the fault is upright its right side counts as the hanging wall.
+    """
+    way, reach = fault.project(Point(place)), 1e-3 * fault.length
+    before, after = (np.array(fault.interpolate(max(0.0, way + step)).coords[0]) for step in (-reach, reach))
+    along = after - before
+    if along[1] < 0 or (along[1] == 0 and along[0] < 0):
+        along = -along  # down the dip
+    across = along[0] * (point[1] - place[1]) - along[1] * (point[0] - place[0])
+    overhang = -across if along[0] >= 0 else across  # above a fault that dips to the right lies its right side
+    return 1 if overhang > 0 else -1
+
+
+def _points(geometry):
+    """The points that lines have in common; of a common stretch, its middle."""
+    return [
+        part.centroid if part.geom_type != "Point" else part
+        for part in shapely.get_parts(geometry)
+        if not part.is_empty
+    ]
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """The lines of some faults and horizons, ready to be matched with each other.
+
+    Attributes
+    ----------
+    faults : dict of str to LineString
+        By name.
+    horizons : dict of str to list of Part
+    where : callable(point) -> str
+        How errors name a place.
+    """
+
+    faults: dict[str, LineString]
+    horizons: dict[str, list[Part]]
+    where: Callable[[tuple[float, float]], str]
+
+    def cutoffs(self) -> list[CutOffs]:
+        """All pairs of cut-offs of the horizons at the faults.
+
+        Raises
+        ------
+        PickError
+            If a horizon meets a fault from one side only, or twice from one side, or if no horizon meets a fault.
+        """
+        found = [pair for fault in self.faults for horizon in self.horizons if (pair := self._pair(fault, horizon))]
+        for fault in self.faults:
+            if not any(pair.fault == fault for pair in found):
+                raise PickError(
+                    f"no horizon ends at fault {fault!r} on both sides, so that nothing tells how far it has slipped; "
+                    f"{self._nearest(fault)}"
+                )
+        return found
+
+    def _pair(self, fault, horizon):
+        sides = {side: self._claims(fault, horizon, side) for side in WALLS}
+        for side, claims in sides.items():
+            if len(claims) > 1:
+                first, second = (self.horizons[horizon][index].number for index, _ in claims[:2])
+                what = f"pieces {first} and {second}" if first != second else f"both ends of piece {first}"
+                raise PickError(
+                    f"{what} of horizon {horizon!r} reach fault {fault!r} in its {WALLS[side]}, the second near "
+                    f"{self._place(horizon, claims[1])}; keep one, or join them"
+                )
+        if sides[1] and sides[-1]:
+            return CutOffs(fault, horizon, sides[1][0], sides[-1][0])
+        if sides[1] or sides[-1]:
+            self._raise_one_sided(fault, horizon, sides)
+        return None
+
+    def _claims(self, fault, horizon, side):
+        """The parts, and ends of them, that lie at a fault on one side."""
+        number = list(self.faults).index(fault)
+        return [
+            (index, place)
+            for index, part in enumerate(self.horizons[horizon])
+            for place in (0, -1)
+            if (end := part.ends[place]) and end.fault == number and end.side == side
+        ]
+
+    def _place(self, horizon, claim):
+        index, place = claim
+        return self.where(self.horizons[horizon][index].ends[place].point)
+
+    def _raise_one_sided(self, fault, horizon, sides):
+        present = 1 if sides[1] else -1
+        message = (
+            f"horizon {horizon!r} reaches fault {fault!r} in its {WALLS[present]} near "
+            f"{self._place(horizon, sides[present][0])}, but not in its {WALLS[-present]}"
+        )
+        line = self.faults[fault]
+        for part in self.horizons[horizon]:
+            for place in (0, -1):
+                end = None if part.ends[place] else _reached(part.line, place, [line], 1e3 * line.length)
+                if end and end.side == -present:
+                    raise PickError(
+                        f"{message}: piece {part.number} ends {end.gap:.4g} m away from the fault, and can be extended "
+                        f"by a fifth of its length at most, {EXTENSION * part.line.length:.4g} m; draw it closer"
+                    )
+        raise PickError(f"{message}; draw a piece there, or leave one of the two out")
+
+    def _nearest(self, fault):
+        distances = [
+            (part.line.distance(self.faults[fault]), horizon, part.number)
+            for horizon, horizon_parts in self.horizons.items()
+            for part in horizon_parts
+        ]
+        if not distances:
+            return "give a horizon with a piece on either side"
+        distance, horizon, number = min(distances)
+        return (
+            f"the nearest is piece {number} of horizon {horizon!r}, {distance:.4g} m away: draw a piece on either side"
+        )
+
+
+def _cutoff_points(fault, horizon):
+    line = LineString(fault.points)
+    found = parts([LineString(piece) for piece in horizon.pieces], [line])
+    where = lambda point: f"x={point[0]:.6g}, z={point[1]:.6g}"  # noqa: E731
+    (pair,) = Drawing({fault.name: line}, {horizon.name: found}, where).cutoffs()
+    return tuple(np.array(found[index].ends[place].point) for index, place in (pair.hanging_wall, pair.footwall))
+
+
+def throw(fault: Fault, horizon: Horizon) -> float:
+    """Vertical separation of a horizon's two cut-offs at a fault, in the section's unit of z.
+
+    Positive where the hanging wall lies deeper (a normal fault).
+
+    Raises
+    ------
+    PickError
+        If the horizon does not reach the fault from both sides.
+    """
+    hanging_wall, footwall = _cutoff_points(fault, horizon)
+    return float(hanging_wall[1] - footwall[1])
+
+
+def heave(fault: Fault, horizon: Horizon) -> float:
+    """Horizontal separation of a horizon's two cut-offs at a fault, in the section's unit of x.
+
+    Positive where the horizon has a gap (a normal fault), negative where it overlaps itself.
+
+    Raises
+    ------
+    PickError
+        If the horizon does not reach the fault from both sides.
+    """
+    hanging_wall, footwall = _cutoff_points(fault, horizon)
+    top, bottom = fault.points[np.argsort(fault.points[[0, -1], 1], kind="stable") * (len(fault.points) - 1)]
+    return float((hanging_wall[0] - footwall[0]) * (1 if bottom[0] >= top[0] else -1))

@@ -1,0 +1,111 @@
+"""Unfolding: making a horizon level while it keeps its length (the paper's section 3.2)."""
+
+import time
+
+import numpy as np
+import shapely
+from shapely import LineString
+
+from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
+from seiswidgets.core.triangulation import edges_along
+from seiswidgets.errors import PickError
+from seiswidgets.geology.faultlines import merged
+from seiswidgets.geology.ground import Ground
+from seiswidgets.geology.report import BedReport
+from seiswidgets.geology.solving import Options, solved, vertex_masses
+from seiswidgets.geology.stage import Stage, staged
+from seiswidgets.geology.unfaulting import length_change
+
+JOINED = 0.5  # of the mesh spacing: ends of two pieces that lie closer are one place
+
+
+def flattened(ground: Ground, name: str, pieces, datum: float | None, options: Options) -> Stage:
+    """The stage that makes a horizon level.
+
+    Parameters
+    ----------
+    ground : Ground
+    name : str
+        The horizon's.
+    pieces : list of LineString
+        The horizon as it lies now.
+    datum : float or None
+        In metres of rock; None for the horizon's mean level.
+    options : Options
+    """
+    began = time.perf_counter()
+    lines = _inside(joined(pieces, ground.spacing), ground, name)
+    mesh = ground.mesh(lines)
+    bed = np.concatenate([edges_along(mesh, line) for line in lines])
+    datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
+    level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
+    free = np.ones(len(mesh.vertices), bool)
+    terms = _terms(mesh, bed, level, options.weights)
+    solution = solved(mesh, terms, mesh.vertices, free, ground.spacing, options, ground.where)
+    vertices = solution.vertices.copy()
+    drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=vertex_masses(mesh))
+    vertices[:, 0] -= drift  # how far the whole moves sideways costs nothing: let it move least
+    off = vertices[level.vertices, 1] - datum
+    report = BedReport(
+        name, length_change([bed], mesh.vertices, vertices), float(np.sqrt(np.mean(off**2)) / ground.section.metres[1])
+    )
+    unmet = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
+    seconds = time.perf_counter() - began
+    return staged("flatten", ground, mesh, vertices, solution, options, seconds, beds=(report,), unmet=unmet)
+
+
+def _terms(mesh, bed, level, weights):
+    others = mesh.edges[~np.isin(_keys(mesh.edges), _keys(bed))]
+    return [
+        MeanValue(mesh, weights.mean_value),
+        ContourLaplacian(mesh, weights.contour),
+        EdgeLength(mesh.vertices, others, weights.edge),
+        EdgeLength(mesh.vertices, bed, weights.length, "bed length"),
+        level,
+        AreaBarrier(mesh),
+    ]
+
+
+def _keys(edges):
+    edges = np.sort(edges, axis=1)
+    return edges[:, 0] << 32 | edges[:, 1]
+
+
+def _mean_level(ends):
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    return float(np.average(ends[:, :, 1].mean(axis=1), weights=lengths))
+
+
+def _still_uneven(name, off):
+    return f"horizon {name}: it is still up to {np.abs(off).max():.2g} m off its datum"
+
+
+def _inside(lines, ground, name):
+    lines = [ground.simplified(LineString(merged(shapely.get_coordinates(line), ground.spacing))) for line in lines]
+    if not any(line.intersection(ground.outline).length > ground.spacing for line in lines):
+        raise PickError(
+            f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or choose a "
+            "finer spacing"
+        )
+    return lines
+
+
+def joined(pieces, spacing) -> list[LineString]:
+    """Pieces of a horizon with ends that nearly meet, as across a fault that has been restored, brought to one place."""
+    points = [shapely.get_coordinates(piece).copy() for piece in pieces]
+    ends = [(piece, place) for piece in range(len(points)) for place in (0, -1)]
+    pairs = sorted(
+        (float(np.hypot(*(points[one][a] - points[other][b]))), (one, a), (other, b))
+        for number, (one, a) in enumerate(ends)
+        for other, b in ends[:number]
+        if one != other
+    )
+    met = set()
+    for distance, one, other in pairs:
+        if distance < JOINED * spacing and not {one, other} & met:
+            middle = (points[one[0]][one[1]] + points[other[0]][other[1]]) / 2
+            points[one[0]][one[1]] = points[other[0]][other[1]] = middle
+            met |= {one, other}
+    return list(
+        shapely.get_parts(shapely.line_merge(shapely.multilinestrings([LineString(piece) for piece in points])))
+    )

@@ -1,0 +1,92 @@
+"""How a stage is solved: the choice of solver, where it starts, and the refusal of flipped triangles."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from seiswidgets.core.mapping import TriangleFinder
+from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.core.solver import Solution, fixed_point, gauss_newton
+from seiswidgets.errors import FlippedError, SettingError
+from seiswidgets.geology.weights import Weights
+
+GAUSS_NEWTON, FIXED_POINT = "gauss-newton", "fixed-point"
+TOLERANCE = 1e-6  # of the mesh spacing
+MOST_ITERATIONS = {GAUSS_NEWTON: 200, FIXED_POINT: 1000}
+
+
+@dataclass(frozen=True)
+class Options:
+    """The choices that ``unfault`` and ``flatten`` share; see there."""
+
+    weights: Weights = field(default_factory=Weights)
+    solver: str = GAUSS_NEWTON
+    max_iterations: int | None = None
+    progress: Callable | None = None
+    start: object = None
+
+    def __post_init__(self):
+        if not isinstance(self.weights, Weights):
+            raise SettingError(f"weights must be a seiswidgets.Weights, but is {self.weights!r}")
+        if self.solver not in MOST_ITERATIONS:
+            raise SettingError(f"solver must be {' or '.join(map(repr, MOST_ITERATIONS))}, but is {self.solver!r}")
+        limit = MOST_ITERATIONS[self.solver] if self.max_iterations is None else self.max_iterations
+        if not isinstance(limit, int | np.integer) or limit < 1:
+            raise SettingError(f"max_iterations must be a whole number of 1 or more, but is {limit!r}")
+        object.__setattr__(self, "max_iterations", int(limit))
+
+
+def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where) -> Solution:
+    """The mesh's vertices where the terms' energy is least.
+
+    Raises
+    ------
+    FlippedError
+        If triangles are turned over at the end; it says how many and where the first is.
+    """
+    start = _warm(mesh, start, free, options.start)
+    settings = (free, TOLERANCE * spacing, options.max_iterations, options.progress)
+    if options.solver == GAUSS_NEWTON:
+        return gauss_newton(terms, mesh.triangles, start, *settings)
+    solution = fixed_point(terms, start, *settings)
+    flipped = np.flatnonzero(triangle_areas(solution.vertices, mesh.triangles) <= 0)
+    if len(flipped):
+        place = mesh.vertices[mesh.triangles[flipped[0]]].mean(axis=0)
+        raise FlippedError(
+            f"the {options.solver} solver has turned {len(flipped)} of {len(mesh.triangles)} triangles over, the first "
+            f"near {where(place)}; use solver={GAUSS_NEWTON!r}, or ask for less",
+            len(flipped),
+        )
+    return solution
+
+
+def _warm(mesh, start, free, earlier):
+    """The earlier stage's deformation on this mesh, if it is there and turns nothing over; else the start as given."""
+    if earlier is None:
+        return start
+    corners = mesh.triangles.ravel()
+    centres = np.repeat(mesh.vertices[mesh.triangles].mean(axis=1), 3, axis=0)
+    inside = mesh.vertices.copy()  # a vertex on a cut belongs to the side where its triangles are
+    inside[corners] += 1e-3 * (centres - mesh.vertices[corners])
+    moved = earlier.map.forward(mesh.vertices, TriangleFinder(earlier.mesh.vertices, earlier.mesh.triangles)(inside))
+    moved[~free] = mesh.vertices[~free]
+    lost = ~np.isfinite(moved).all() or triangle_areas(moved, mesh.triangles).min() <= 0
+    return start if lost else moved
+
+
+def nearest_rigid(rest, moved, masses) -> np.ndarray:
+    """Positions after the rigid motion that brings them nearest to where they were (Procrustes), shape (n, 2)."""
+    share = masses / masses.sum()
+    centre, centre_moved = share @ rest, share @ moved
+    a, b = moved - centre_moved, rest - centre
+    sine = share @ (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    cosine = share @ np.sum(a * b, axis=1)
+    length = np.hypot(sine, cosine)
+    turn = np.array([[cosine, sine], [-sine, cosine]]) / length
+    return a @ turn + centre
+
+
+def vertex_masses(mesh: Mesh) -> np.ndarray:
+    """A third of the area of the triangles at each vertex, shape (n,)."""
+    return np.bincount(mesh.triangles.ravel(), np.repeat(mesh.areas / 3, 3), minlength=len(mesh.vertices))

@@ -1,0 +1,110 @@
+"""One stage of a restoration: a mesh before and after it, and how it carries points and lines along."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from shapely import LineString
+
+from seiswidgets.core import deformation
+from seiswidgets.core.mapping import PiecewiseAffineMap
+from seiswidgets.core.mesh import Mesh
+from seiswidgets.geology.cutoffs import parts, split_piece
+from seiswidgets.geology.report import Report
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """A step of a restoration, in metres of rock.
+
+    Attributes
+    ----------
+    kind : "unfault" or "flatten"
+    mesh : Mesh
+        Before the step.
+    vertices : array, shape (n, 2)
+        Where the mesh's vertices are after it.
+    faults : tuple of shapely LineString
+        What the mesh is cut along, before the step.
+    spacing : float
+        Of the mesh.
+    report : Report
+    """
+
+    kind: str
+    mesh: Mesh
+    vertices: np.ndarray
+    faults: tuple[LineString, ...]
+    spacing: float
+    report: Report
+
+    def __post_init__(self):
+        self.vertices.setflags(write=False)
+
+    @cached_property
+    def map(self) -> PiecewiseAffineMap:
+        """From before the step to after it."""
+        return PiecewiseAffineMap(self.mesh.vertices, self.vertices, self.mesh.triangles)
+
+    @cached_property
+    def area_ratio(self) -> np.ndarray:
+        """Initial over final area of each triangle (the paper's fig. 6d), shape (m,); above 1 is compression."""
+        return deformation.area_ratio(self.mesh, self.vertices)
+
+    @cached_property
+    def principal_stretches(self) -> np.ndarray:
+        """Length after over before along the two principal directions of each triangle, larger first; shape (m, 2)."""
+        return deformation.principal_stretches(self.mesh, self.vertices)
+
+    def carried_horizon(self, pieces) -> list[LineString]:
+        """The pieces of a horizon as they lie after the step, drawn on to the faults they end at."""
+        return self._carried(parts(pieces, self.faults))
+
+    def carried_fault(self, line) -> list[LineString]:
+        """A fault as it lies after the step, in order, parted where another fault crosses it."""
+        return self._carried(split_piece(line, self.faults))
+
+    def _carried(self, lines):
+        carried = [self._moved(part.line) for part in lines]
+        return [line for line in carried if line is not None]
+
+    def _moved(self, line):
+        points = shapely.get_coordinates(line.segmentize(self.spacing / 2))
+        inwards = points.copy()  # an end on a fault belongs to the side from which the line comes
+        inwards[[0, -1]] += 1e-6 * (points[[1, -2]] - points[[0, -1]])
+        moved = self.map.forward(points, self.map.source_finder(inwards))
+        moved = moved[np.isfinite(moved).all(axis=1)]
+        return LineString(moved) if len(moved) > 1 else None
+
+
+def staged(kind, ground, mesh, vertices, solution, options, seconds, faults=(), **found) -> Stage:
+    """The stage that a solution makes, with its report."""
+    ratio = deformation.area_ratio(mesh, vertices)
+    percents = (1, 50, 99)
+    report = Report(
+        kind=kind,
+        solver=options.solver,
+        vertices=len(mesh.vertices),
+        triangles=len(mesh.triangles),
+        iterations=solution.iterations,
+        factorisations=solution.factorisations,
+        converged=solution.converged,
+        seconds=seconds,
+        energy=_energy(solution),
+        flipped=int(np.sum(ratio <= 0)),
+        area_ratio=dict(
+            zip(percents, deformation.weighted_percentiles(ratio, mesh.areas, percents).tolist(), strict=True)
+        ),
+        x_unit=ground.section.x_unit,
+        z_unit=ground.section.z_unit,
+        **found,
+    )
+    return Stage(kind, mesh, vertices, faults, ground.spacing, report)
+
+
+def _energy(solution):
+    energy = {}
+    for term in solution.terms:
+        energy[term.name] = energy.get(term.name, 0.0) + float(np.sum(term.residual(solution.vertices) ** 2))
+    return energy
