@@ -47,14 +47,14 @@ class NormalEquations:
     Parameters
     ----------
     terms : list of terms
-    free : array of bool, shape (n,)
-        The vertices that may move.
+    free : array of bool, shape (n, 2)
+        The coordinates that may change.
     vertices : array, shape (n, 2)
         Any positions; only their number matters.
     """
 
     def __init__(self, terms, free, vertices):
-        coordinates = np.repeat(free, 2)
+        coordinates = free.ravel()
         self.size = int(coordinates.sum())
         self._unknown = np.where(coordinates, np.cumsum(coordinates) - 1, -1)
         self._coordinates = np.flatnonzero(coordinates)

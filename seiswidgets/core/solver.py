@@ -72,8 +72,8 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     triangles : array, shape (m, 3)
     start : array, shape (n, 2)
         Positions without a flipped triangle.
-    free : array of bool, shape (n,)
-        The vertices that may move.
+    free : array of bool, shape (n,) or (n, 2)
+        The vertices that may move, or the coordinates that may change.
     tolerance : float
         Stop when a full step moves no vertex farther than this, in metres.
     progress : callable(iteration, energy, vertices), optional
@@ -85,7 +85,7 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     """
     vertices, damping = np.array(start, float), LEAST_DAMPING
     terms = held_now(terms, vertices)
-    equations = NormalEquations(terms, free, vertices)
+    equations = NormalEquations(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
     energies, converged = [energy(terms, vertices)], False
     for iteration in range(1, max_iterations + 1):
         equations.at(terms, vertices)

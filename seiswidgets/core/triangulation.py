@@ -13,6 +13,7 @@ from seiswidgets.errors import SettingError
 LEAST_ANGLE = 30  # degrees; Triangle is sure to end up to about 33
 LARGEST_AREA = 0.7  # of the squared spacing; the mean then comes close to the equilateral triangle's 0.43
 SNAP = 2.0**-24  # of the outline's width and height; what lies closer becomes one place
+REACH = 0.1  # of the spacing: a line that ends so close to the outline meets it
 DENSITY = 1.15  # vertices in a square whose side is the spacing
 TOO_MANY = 250_000
 TOO_FEW = 30
@@ -37,6 +38,7 @@ def triangulate(outline, lines, spacing: float) -> Mesh:
         If so many vertices would be needed, or so few come out, that the mesh is of no use.
     """
     _check_count(outline, spacing)
+    lines = [_reaching(line, outline.boundary, REACH * spacing) for line in lines]
     vertices, segments = _graph(outline, shapely.segmentize(lines, spacing))
     origin = np.array(outline.bounds[:2])
     drawing = {"vertices": (vertices - origin) / spacing, "segments": segments}  # Triangle is at its best near 1
@@ -65,6 +67,17 @@ def _check_count(outline, spacing):
             f"a mesh spacing of {spacing:g} m would make about {count:,} vertices; the limit is {TOO_MANY:,}: "
             f"choose at least {least:.4g} m"
         )
+
+
+def _reaching(line, border, reach):
+    """A line whose ends are drawn on to a border that they nearly meet: what is left between would make slivers."""
+    points = shapely.get_coordinates(line)
+    for place in (0, -1):
+        end = shapely.Point(points[place])
+        if 0 < border.distance(end) < reach:
+            near = border.interpolate(border.project(end))
+            points = np.insert(points, 0 if place == 0 else len(points), near.coords[0], axis=0)
+    return shapely.LineString(points)
 
 
 def _graph(outline, lines):

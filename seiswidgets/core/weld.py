@@ -158,5 +158,5 @@ def outline(mesh: Mesh, vertices, closing: float):
     style = {"join_style": "mitre", "mitre_limit": 10}
     closed = covered.buffer(closing, **style).buffer(-closing, **style)
     gaps = shapely.get_parts(closed.difference(covered))
-    gaps = gaps[shapely.area(gaps) > (1e-6 * closing) ** 2]
-    return shapely.union_all([covered, *gaps], grid_size=grid)
+    gaps = gaps[shapely.area(gaps) > (0.1 * closing) ** 2]  # what is smaller is rounding
+    return shapely.union_all([covered, *gaps], grid_size=grid).simplify(1e-5 * closing)

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from shapely import LineString
 
-from seiswidgets.core.mapping import resampled
+from seiswidgets.core.resampling import resampled
 from seiswidgets.core.weld import outline
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.flattening import flattened, joined

@@ -37,8 +37,13 @@ class Options:
         object.__setattr__(self, "max_iterations", int(limit))
 
 
-def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where) -> Solution:
+def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where, adrift=False) -> Solution:
     """The mesh's vertices where the terms' energy is least.
+
+    Parameters
+    ----------
+    adrift : bool
+        Whether a rigid motion of all free vertices costs nothing.
 
     Raises
     ------
@@ -46,10 +51,10 @@ def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where) -> 
         If triangles are turned over at the end; it says how many and where the first is.
     """
     start = _warm(mesh, start, free, options.start)
-    settings = (free, TOLERANCE * spacing, options.max_iterations, options.progress)
+    settings = (TOLERANCE * spacing, options.max_iterations, options.progress)
     if options.solver == GAUSS_NEWTON:
-        return gauss_newton(terms, mesh.triangles, start, *settings)
-    solution = fixed_point(terms, start, *settings)
+        return gauss_newton(terms, mesh.triangles, start, anchored(mesh) if adrift else free, *settings)
+    solution = fixed_point(terms, start, free, *settings)
     flipped = np.flatnonzero(triangle_areas(solution.vertices, mesh.triangles) <= 0)
     if len(flipped):
         place = mesh.vertices[mesh.triangles[flipped[0]]].mean(axis=0)
@@ -59,6 +64,22 @@ def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where) -> 
             len(flipped),
         )
     return solution
+
+
+def anchored(mesh: Mesh) -> np.ndarray:
+    """Coordinates that may change where a rigid motion of the whole costs nothing, shape (n, 2): all but three.
+
+    A vertex in the middle stays, and one far from it does not move round it. This takes nothing from any solution but
+    its rigid motion. Damping alone would leave Gauss-Newton slow: the terms that are vectors turn with the whole, so that
+    J^T J sees a stiffness against turning which the energy does not have.
+    """
+    middle = np.argmin(np.hypot(*(mesh.vertices - np.average(mesh.vertices, axis=0, weights=vertex_masses(mesh))).T))
+    arms = np.abs(mesh.vertices - mesh.vertices[middle])
+    far = np.argmax(np.hypot(*arms.T))
+    free = np.ones(mesh.vertices.shape, bool)
+    free[middle] = False
+    free[far, 1 if arms[far, 0] >= arms[far, 1] else 0] = False
+    return free
 
 
 def _warm(mesh, start, free, earlier):

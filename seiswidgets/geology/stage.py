@@ -72,7 +72,8 @@ class Stage:
     def _moved(self, line):
         points = shapely.get_coordinates(line.segmentize(self.spacing / 2))
         inwards = points.copy()  # an end on a fault belongs to the side from which the line comes
-        inwards[[0, -1]] += 1e-6 * (points[[1, -2]] - points[[0, -1]])
+        nudge = min(1e-3 * self.spacing, line.length / 4)
+        inwards[[0, -1]] = [line.interpolate(way).coords[0] for way in (nudge, line.length - nudge)]
         moved = self.map.forward(points, self.map.source_finder(inwards))
         moved = moved[np.isfinite(moved).all(axis=1)]
         return LineString(moved) if len(moved) > 1 else None

@@ -18,7 +18,7 @@ from seiswidgets.geology.cutoffs import CutOffs, Drawing, parts
 from seiswidgets.geology.faultlines import EDGES, fault_lines, with_points
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.report import BedReport, CutOffReport, SeamReport
-from seiswidgets.geology.solving import Options, nearest_rigid, solved, vertex_masses
+from seiswidgets.geology.solving import GAUSS_NEWTON, Options, nearest_rigid, solved, vertex_masses
 from seiswidgets.geology.stage import Stage, staged
 
 
@@ -46,6 +46,15 @@ class Blocks:
     stitches: np.ndarray
     beds: dict[str, list[np.ndarray]]
 
+    @property
+    def reach(self) -> float:
+        """What multiplies the weight of a stitch: the root of the number of edges along a fault, on average.
+
+        A stitch is one vertex, but has to move the whole side of a fault. So it counts for as many as the contact
+        does there, and cut-offs meet as well on a fine mesh as on a coarse one.
+        """
+        return float(np.sqrt(np.mean([sides.shape[1] for sides in self.sides.values()])))
+
 
 def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Options) -> Stage:
     """The stage that undoes the slip on some faults.
@@ -64,15 +73,18 @@ def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Opti
     mesh, free = blocks.cut.mesh, _free(blocks.cut.mesh, fixed, ground)
     terms = _terms(blocks, options.weights)
     between = [term for term in terms if isinstance(term, Contact | Stitch)]
-    start = rigid_blocks(mesh.blocks, between, _slid_together(mesh, blocks.stitches, free), free)
-    solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where)
+    start = mesh.vertices  # the paper's own start
+    if options.solver == GAUSS_NEWTON:
+        start = rigid_blocks(mesh.blocks, between, _slid_together(mesh, blocks.stitches, free), free)
+    adrift = bool(free.all())
+    solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where, adrift)
     seams, gave_way = _seams(blocks, solution, ground)
     cutoffs, apart = _cutoffs(blocks, solution.vertices, ground)
     beds = tuple(
         BedReport(name, length_change(edges, mesh.vertices, solution.vertices)) for name, edges in blocks.beds.items()
     )
     vertices = solution.vertices
-    if free.all():
+    if adrift:
         vertices = nearest_rigid(mesh.vertices, vertices, vertex_masses(mesh))
     whole, vertices = welded(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
     found = {"seams": seams, "cutoffs": cutoffs, "beds": beds, "unmet": (*apart, *gave_way)}
@@ -146,7 +158,7 @@ def _terms(blocks, weights):
         MeanValue(mesh, weights.mean_value),
         ContourLaplacian(mesh, weights.contour),
         EdgeLength(mesh.vertices, mesh.edges, weights.edge),
-        Stitch(pairs, len(mesh.vertices), weights.stitch),
+        Stitch(pairs, len(mesh.vertices), weights.stitch * blocks.reach),
         *(
             term
             for name, sides in blocks.sides.items()
