@@ -15,10 +15,11 @@ import seiswidgets as sw
 from seiswidgets.geology.history import BlindSlip, Circular, RigidMotion, Straight
 
 WIDTH, DEPTH = 4000.0, 2000.0
-SECTION = sw.Section(np.zeros((401, 321), np.float32), 12.5, 5.0)
+SECTION = sw.Section(np.zeros((201, 161), np.float32), 25.0, 10.0)
 BOX = shapely.box(0, 0, WIDTH, DEPTH)
 SPACING = 150.0  # makes 500 to 1,000 vertices
-STEP = 25.0  # between the points of a line
+STEP = 25.0  # between the points of a line while it is deformed
+DRAWN = 0.5  # how closely an interpreter's line follows it
 FEW = 2  # horizons at least, where there are
 REACH = 1.0  # a line that ends this close to another ends at it
 
@@ -114,7 +115,7 @@ def _slipped(slips, beds):
         line = slip.line()
         faults, *beds = ([slip.applied(part) for part in _parted(lines, line)] for lines in (faults, *beds))
         faults.append(line)
-    faults, *beds = ([part for line in lines for part in _clipped(line)] for lines in (faults, *beds))
+    faults, *beds = ([part.simplify(DRAWN) for line in lines for part in _clipped(line)] for lines in (faults, *beds))
     return faults, beds
 
 
@@ -197,13 +198,13 @@ def _side(fault, end, inner):
 
 
 def _held(rng, faults):
-    """A point in one of the blocks, or None: half of the time, and where nothing is cut off."""
+    """A point in a block without a fault that ends inside it; None half of the time, and where there is none such."""
     lines = shapely.union_all([BOX.exterior, *(_drawn_on(fault) for fault in faults)])
     blocks = [block for block in shapely.polygonize([lines]).geoms if block.area > 0.02 * BOX.area]
-    blocks = [block for block in blocks if BOX.contains(block.representative_point())]
-    if len(blocks) < 2 or rng.integers(2):
+    whole = [block for block in blocks if not any(block.buffer(-5 * REACH).intersects(fault) for fault in faults)]
+    if len(blocks) < 2 or not whole or rng.integers(2):
         return None
-    return rng.choice([block.representative_point().coords[0] for block in blocks])
+    return rng.choice([block.representative_point().coords[0] for block in whole])
 
 
 def _drawn_on(line):

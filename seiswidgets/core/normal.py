@@ -14,16 +14,21 @@ class Gram:
 
     def __init__(self, jacobian, unknown, size):
         self.first, self.second = _pairs_within_rows(jacobian.indptr)
+        self._row = np.repeat(np.arange(jacobian.shape[0]), np.diff(jacobian.indptr))[self.first]
         one, other = unknown[jacobian.indices[self.first]], unknown[jacobian.indices[self.second]]
         inner = (one >= 0) & (other >= 0)
-        self.first, self.second, one, other = (array[inner] for array in (self.first, self.second, one, other))
+        self.first, self.second, self._row = self.first[inner], self.second[inner], self._row[inner]
+        one, other = one[inner], other[inner]
         keys = np.minimum(one, other) * size + np.maximum(one, other)
         self.keys = np.unique(keys)
         self.place = np.searchsorted(self.keys, keys)
 
-    def numbers(self, data):
-        """The entries of J^T J at ``keys`` when ``data`` are the entries of J."""
-        return np.bincount(self.place, data[self.first] * data[self.second], minlength=len(self.keys))
+    def numbers(self, data, factor=None):
+        """The entries of J^T J at ``keys`` when ``data`` are those of J; of J^T diag(factor) J if that is given."""
+        products = data[self.first] * data[self.second]
+        if factor is not None:
+            products *= factor[self._row]
+        return np.bincount(self.place, products, minlength=len(self.keys))
 
 
 def _pairs_within_rows(pointers):
@@ -39,7 +44,10 @@ def _pairs_within_rows(pointers):
 
 
 class NormalEquations:
-    """Solves (J^T J + damping) step = -J^T r for the unknown coordinates, at one place after another.
+    """Solves (J^T J + B + damping) step = -J^T r for the unknown coordinates, at one place after another.
+
+    B are the second derivatives of the terms that know theirs (``curvature``): without them Gauss-Newton's steps get
+    small only slowly where much is left of a residual, as in a tight fold.
 
     The pattern of J^T J is found once for the terms whose Jacobians keep theirs, and widened only when a moving
     term needs a new place; the matrix is then analysed anew, in the same order of elimination.
@@ -107,8 +115,14 @@ class NormalEquations:
         grams = [(Gram(jacobian, self._unknown, self.size), jacobian.data) for _, jacobian in moving]
         self._widen([gram.keys for gram, _ in grams])
         self._numbers = self._unchanging.copy()
+        self._stretched, self._shortened = np.zeros((2, len(self._keys)))
         for number, jacobian in steady:
-            self._numbers[self._place[number]] += self._gram[number].numbers(jacobian.data)
+            gram, place = self._gram[number], self._place[number]
+            self._numbers[place] += gram.numbers(jacobian.data)
+            if hasattr(terms[number], "curvature"):
+                data, factor = terms[number].curvature(vertices)
+                self._stretched[place] += gram.numbers(data, np.maximum(factor, 0))
+                self._shortened[place] += gram.numbers(data, np.minimum(factor, 0))
         for gram, data in grams:
             self._numbers[np.searchsorted(self._keys, gram.keys)] += gram.numbers(data)
 
@@ -119,16 +133,23 @@ class NormalEquations:
         if len(new):
             self._set_pattern(np.union1d(self._keys, new))
 
-    def step(self, damping: float):
-        """The damped step, shape (n, 2); 0 for the vertices that are held.
+    def step(self, damping: float, bending: float = 0.0):
+        """The damped step, shape (n, 2); 0 for what is held.
 
         Parameters
         ----------
         damping : float
             What is added to the diagonal, in units of its mean.
+        bending : float
+            The share that is taken of the second derivatives of what is shortened. With 1, and all of those of what
+            is stretched, the step is Newton's; with less the matrix is more surely positive definite.
+
+        Raises
+        ------
+        NotPositiveDefinite
         """
-        numbers = self._numbers.copy()
-        numbers[self._diagonal] += damping * numbers[self._diagonal].sum() / max(self.size, 1)
+        numbers = self._numbers + self._stretched + bending * self._shortened
+        numbers[self._diagonal] += damping * self._numbers[self._diagonal].sum() / max(self.size, 1)
         self.factorisations += 1
         self._cholesky.factorise(numbers)
         step = np.zeros(len(self._unknown))

@@ -11,7 +11,9 @@ from seiswidgets.core.normal import NormalEquations
 from seiswidgets.core.terms import MOVING
 from seiswidgets.errors import Cancelled
 
-LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the mean diagonal; the least only tames rigid motions that cost nothing
+LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the mean diagonal; the least only tames motions that cost nothing
+LEAST_BENDING = 0.1  # share of the second derivatives that is worth a try
+HALVINGS = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,49 +85,74 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     ------
     Cancelled
     """
-    vertices, damping = np.array(start, float), LEAST_DAMPING
+    vertices, caution = np.array(start, float), Caution()
     terms = held_now(terms, vertices)
     equations = NormalEquations(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
-    energies, converged = [energy(terms, vertices)], False
-    for iteration in range(1, max_iterations + 1):
+    energies, converged, iteration = [energy(terms, vertices)], False, 0
+    while not converged and iteration < max_iterations:
         equations.at(terms, vertices)
-        moved, damping, length = _descent(equations, terms, vertices, triangles, damping, tolerance)
+        moved, full = _descent(equations, terms, vertices, triangles, caution, tolerance)
         if moved is None:
             break
-        full = length == 1 and damping <= LEAST_DAMPING
-        converged = full and np.max(np.abs(moved - vertices), initial=0) <= tolerance
-        vertices = moved
+        converged = full and _farthest(moved - vertices) <= tolerance
+        vertices, iteration = moved, iteration + 1
         terms = held_now(terms, vertices)
         energies.append(energy(terms, vertices))
         _report(progress, iteration, energies[-1], vertices)
-        if converged:
-            break
-        damping = max(damping / 10, LEAST_DAMPING)
-    return Solution(vertices, terms, iteration, equations.factorisations, bool(converged), tuple(energies))
+    return Solution(vertices, terms, iteration, equations.factorisations, converged, tuple(energies))
 
 
-def _descent(equations, terms, vertices, triangles, damping, tolerance):
-    """A step that lowers the energy: the new vertices, the damping it took, and the share of the step that was gone.
+@dataclass
+class Caution:
+    """How a step is kept safe: by damping, and by taking less of the second derivatives that could be negative."""
+
+    damping: float = LEAST_DAMPING
+    bending: float = 1.0
+
+    def more_convex(self):
+        """After a matrix that was not positive definite."""
+        if self.bending > 0:
+            self.bending = self.bending / 2 if self.bending > LEAST_BENDING else 0.0
+        else:
+            self.shorter()
+
+    def shorter(self):
+        """After a step that did not lower the energy."""
+        self.damping *= 100
+
+    def less(self):
+        """After a step that did."""
+        self.damping = max(self.damping / 10, LEAST_DAMPING)
+        self.bending = min(1.5 * max(self.bending, LEAST_BENDING), 1.0)
+
+
+def _descent(equations, terms, vertices, triangles, caution, tolerance):
+    """The vertices after a step that lowers the energy, None if there is none, and whether it was an undamped full step.
 
     A step within the tolerance is taken as it is: rounding would hide what it gains.
     """
     before = energy(terms, vertices)
-    while damping <= MOST_DAMPING:
+    while caution.damping <= MOST_DAMPING:
         try:
-            step = equations.step(damping)
+            step = equations.step(caution.damping, caution.bending)
         except NotPositiveDefinite:
-            damping *= 100
+            caution.more_convex()
             continue
+        undamped = caution.damping == LEAST_DAMPING
         length = min(1.0, 0.9 * first_flip(vertices, step, triangles))
-        if length == 1 and np.max(np.abs(step), initial=0) <= tolerance:
-            return vertices + step, damping, length
-        for _ in range(4):
+        settled = undamped and length == 1 and _farthest(step) <= tolerance
+        for _ in range(HALVINGS):
             moved = vertices + length * step
-            if triangle_areas(moved, triangles).min() > 0 and energy(terms, moved) <= before * (1 + 1e-12):
-                return moved, damping, length
+            if settled or (triangle_areas(moved, triangles).min() > 0 and energy(terms, moved) < before):
+                caution.less()
+                return moved, undamped and length == 1
             length /= 2
-        damping *= 100
-    return None, damping, 0.0
+        caution.shorter()
+    return None, False
+
+
+def _farthest(step):
+    return float(np.max(np.abs(step), initial=0))
 
 
 def fixed_point(terms, start, free, tolerance, max_iterations=1000, progress=None) -> Solution:
@@ -141,19 +168,17 @@ def fixed_point(terms, start, free, tolerance, max_iterations=1000, progress=Non
     matrix = vstack([term.rows for term in terms], format="csc")
     unknown, held = matrix[:, free], matrix[:, ~free] @ vertices[~free]
     factor = _normal_factor(unknown)
-    energies, converged = [energy(terms, vertices)], False
-    for iteration in range(1, max_iterations + 1):
+    energies, converged, iteration = [energy(terms, vertices)], False, 0
+    while not converged and iteration < max_iterations:
         targets = np.concatenate([term.target(vertices) for term in terms])
         moved = vertices.copy()
         moved[free] = factor.solve(unknown.T @ (targets - held))
-        converged = np.max(np.abs(moved - vertices), initial=0) <= tolerance
-        vertices = moved
+        converged = _farthest(moved - vertices) <= tolerance
+        vertices, iteration = moved, iteration + 1
         terms = held_now(terms, vertices)
         energies.append(energy(terms, vertices))
         _report(progress, iteration, energies[-1], vertices)
-        if converged:
-            break
-    return Solution(vertices, terms, iteration, 1, bool(converged), tuple(energies))
+    return Solution(vertices, terms, iteration, 1, converged, tuple(energies))
 
 
 def _normal_factor(matrix):

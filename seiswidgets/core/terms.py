@@ -138,6 +138,20 @@ class EdgeLength:
         unit, _ = self._vectors(vertices)
         return sparse_rows(coordinates(self.edges), self.weight * np.hstack([unit, -unit]), vertices.size)
 
+    def curvature(self, vertices):
+        """What the residual's second derivatives add: an edge resists turning as far as it is stretched.
+
+        Returns
+        -------
+        data : array, entries of rows with the Jacobian's pattern
+        factor : array, shape (e,)
+            Such that the sum of factor times row times row, over all rows, is the sum of residual times its Hessian.
+        """
+        unit, lengths = self._vectors(vertices)
+        normal = unit[:, ::-1] * [-1, 1]
+        factor = self.weight**2 * (1 - self._lengths / np.maximum(lengths, np.finfo(float).tiny))
+        return np.hstack([normal, -normal]).ravel(), factor
+
 
 @dataclass(frozen=True, eq=False)
 class Stitch:

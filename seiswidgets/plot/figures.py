@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator, PercentFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
 from seiswidgets.geology.picks import Interpretation
@@ -18,7 +18,7 @@ from seiswidgets.plot.pictures import (
     chosen_stage,
     draw_picks,
     draw_section,
-    state,
+    titled,
     up_to,
 )
 
@@ -45,7 +45,7 @@ def deformation(
     stage : int
         Which one, counted from 0; the last one if left out.
     span : float, optional
-        The colours run from 1 / span to span. If left out, such that one triangle in a hundred lies beyond.
+        The colours run from 1 / span to span. If left out, such that hardly any lies beyond.
     exaggeration, window
         As described for this module.
 
@@ -58,9 +58,7 @@ def deformation(
     shown = up_to(restored, number + 1)
     frame = framed(restored.original, [shown.section], exaggeration, window)
     size = WIDTH, max(2.8, 0.66 * WIDTH * frame.shape + 1.0)
-    figure, (on_the_left, on_the_right) = plt.subplots(
-        1, 2, figsize=size, width_ratios=(2.6, 1), layout="constrained"
-    )
+    figure, (on_the_left, on_the_right) = plt.subplots(1, 2, figsize=size, width_ratios=(2.6, 1), layout="constrained")
     _draw_deformation(on_the_left, on_the_right, shown, interpretation, frame, span)
     frame.put_footnote_below(figure)
     return figure
@@ -88,18 +86,18 @@ def workflow(
         If nothing has been restored yet, or a keyword is out of its range.
     """
     number, _ = chosen_stage(restored, stage)
-    states = [up_to(restored, count) for count in range(len(restored.stages) + 1)]
-    frame = framed(restored.original, [state.section for state in states], exaggeration, window)
+    steps = [up_to(restored, count) for count in range(len(restored.stages) + 1)]
+    frame = framed(restored.original, [step.section for step in steps], exaggeration, window)
     limit = amplitude_limit(restored.original, clip)
-    figure, pictures, histogram = _panels(len(states) + 1, frame)
-    for ax, state in zip(pictures[:-1], states, strict=True):
-        draw_section(ax, state, limit, cmap)
-        frame.put_on(ax, state(state))
-        draw_picks(ax, state, interpretation, frame)
-    _draw_deformation(pictures[-1], histogram, states[number + 1], interpretation, frame, span)
+    figure, pictures, histogram = _panels(len(steps) + 1, frame)
+    for ax, step in zip(pictures[:-1], steps, strict=True):
+        draw_section(ax, step, limit, cmap)
+        frame.put_on(ax, titled(step))
+        draw_picks(ax, step, interpretation, frame)
+    _draw_deformation(pictures[-1], histogram, steps[number + 1], interpretation, frame, span)
     for letter, ax in zip("abcdefghijklmnopqrstuvwxyz", pictures, strict=False):
         ax.set_title(f"({letter}) {ax.get_title(loc='left')}", loc="left", fontsize="medium")
-        ax.label_outer()
+    _with_outer_labels_only(pictures)
     frame.put_footnote_below(figure)
     return figure
 
@@ -108,47 +106,74 @@ def _panels(count, frame):
     """Axes of so many pictures, in two columns, and of a histogram: in the cell that is left over, or below."""
     rows = -(-count // 2)
     low = count % 2 == 0
-    heights = [max(1.6, 0.44 * WIDTH * frame.shape)] * rows + [1.5] * low
-    figure = plt.figure(figsize=(WIDTH, sum(heights) + 0.35 * rows + 0.9), layout="constrained")
+    heights = [max(1.6, 0.44 * WIDTH * frame.shape)] * rows + [1.4] * low
+    figure = plt.figure(figsize=(WIDTH, sum(heights) + 0.3 * rows + 1.2), layout="compressed")
     grid = figure.add_gridspec(len(heights), 2, height_ratios=heights)
     pictures = [figure.add_subplot(grid[number // 2, number % 2]) for number in range(count)]
     return figure, pictures, figure.add_subplot(grid[-1, :] if low else grid[-1, 1])
 
 
+def _with_outer_labels_only(pictures):
+    """Take off the labels of pictures that have the same axis to their left or below them."""
+    for number, ax in enumerate(pictures):
+        if number % 2:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+        if number < len(pictures) - 2:
+            ax.set_xlabel("")
+            ax.tick_params(labelbottom=False)
+
+
 def _draw_deformation(ax, histogram, restored, interpretation, frame, span):
     """The map of the last stage's area ratio, and the histogram, which stands on the colour bar of both."""
     stage = restored.stages[-1]
-    ratio, areas = stage.area_ratio, stage.mesh.areas
-    low, median, high = weighted_percentiles(ratio, areas, (1, 50, 99))
-    span = _chosen_span(max(high, 1 / low)) if span is None else span
-    edges, shares = area_ratio_histogram(ratio, areas, span=span)
+    percentiles = weighted_percentiles(stage.area_ratio, stage.mesh.areas, (1, 50, 99))
+    span = _chosen_span(percentiles) if span is None else span
+    bins, shares = area_ratio_histogram(stage.area_ratio, stage.mesh.areas, span=span)
     colours = ScalarMappable(LogNorm(1 / span, span), COLOURS)
-
-    x, z = restored.original.from_rock(stage.vertices).T
-    look = {"norm": colours.norm, "cmap": colours.cmap, "edgecolors": "face", "linewidth": 0.3}
-    ax.tripcolor(x, z, stage.mesh.triangles, facecolors=ratio, **look)
+    _draw_map(ax, restored, interpretation, colours)
     frame.put_on(ax, f"deformation by {DONE[stage.kind]}")
-    draw_picks(ax, restored, interpretation, frame, colours=("black", "black"), named=False)
-
-    middles = np.sqrt(edges[:-1] * edges[1:])
-    histogram.bar(edges[:-1], shares, np.diff(edges), align="edge", color=colours.to_rgba(middles), ec="0.5", lw=0.3)
-    histogram.set(xscale="log", xlim=edges[[0, -1]], ylabel="share of the area")
-    histogram.yaxis.set_major_formatter(PercentFormatter(1))
-    histogram.spines[["top", "right"]].set_visible(False)
-    histogram.set_title(f"median {median:.3f}\n98% from {low:.3f} to {high:.3f}", loc="left", fontsize=SMALL)
-    _draw_colour_bar(histogram, colours, span)
+    _draw_histogram(histogram, bins, shares, colours)
+    low, median, high = (f"{value:.3f}" for value in percentiles)
+    histogram.set_title(f"median {median}\n98% of the area from {low} to {high}", loc="left", fontsize=8.5)
 
 
-def _chosen_span(farthest):
+def _chosen_span(percentiles):
+    farthest = max(percentiles.max(), 1 / percentiles.min())
     return next((span for span in SPANS if span >= farthest), SPANS[-1])
 
 
-def _draw_colour_bar(histogram, colours, span):
-    """The colour bar as the histogram's axis of x."""
-    histogram.xaxis.set_major_locator(NullLocator())
-    histogram.xaxis.set_minor_locator(NullLocator())
-    bar = histogram.figure.colorbar(colours, cax=histogram.inset_axes([0, -0.1, 1, 0.08]), orientation="horizontal")
+def _draw_map(ax, restored, interpretation, colours):
+    """Each triangle where it lies after the last stage, in the colour of its area ratio."""
+    stage = restored.stages[-1]
+    x, z = restored.original.from_rock(stage.vertices).T
+    look = {"norm": colours.norm, "cmap": colours.cmap, "edgecolors": "face", "linewidth": 0.3}
+    ax.tripcolor(x, z, stage.mesh.triangles, facecolors=stage.area_ratio, **look)
+    for _, lines in carried(restored, interpretation):
+        for line in lines:
+            ax.plot(*line.T, color="black", linewidth=0.8)
+
+
+def _draw_histogram(ax, bins, shares, colours):
+    """Bars of the share of the area, which stand on the colour bar as their axis."""
+    middles = np.sqrt(bins[:-1] * bins[1:])
+    look = {"color": colours.to_rgba(middles), "edgecolor": "0.5", "linewidth": 0.3}
+    ax.bar(bins[:-1], shares, np.diff(bins), align="edge", **look)
+    ax.set(xscale="log", xlim=bins[[0, -1]], ylabel="share of the area")
+    ax.yaxis.set_major_locator(MaxNLocator(4))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:.3g}%"))
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.xaxis.set_major_locator(NullLocator())
+    ax.xaxis.set_minor_locator(NullLocator())
+    side = {"transform": ax.transAxes, "va": "top", "fontsize": 8.5}
+    ax.text(0.01, 0.97, "dilatation", color=colours.cmap(0.1), ha="left", **side)
+    ax.text(0.99, 0.97, "compression", color=colours.cmap(0.9), ha="right", **side)
+    _draw_colour_bar(ax, colours)
+
+
+def _draw_colour_bar(ax, colours):
+    bar = ax.figure.colorbar(colours, cax=ax.inset_axes([0, -0.1, 1, 0.09]), orientation="horizontal")
     bar.ax.xaxis.set_minor_locator(NullLocator())
-    bar.ax.xaxis.set_major_locator(FixedLocator([1 / span, 1, span]))
+    bar.ax.xaxis.set_major_locator(FixedLocator([colours.norm.vmin, 1, colours.norm.vmax]))
     bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
     bar.set_label("initial area / final area")

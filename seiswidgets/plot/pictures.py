@@ -70,7 +70,7 @@ def restoration(
     frame = framed(restored.original, [restored.section], exaggeration, window)
     ax = ax or frame.axes()
     draw_section(ax, restored, amplitude_limit(restored.original, clip), cmap)
-    frame.put_on(ax, state(restored))
+    frame.put_on(ax, titled(restored))
     draw_picks(ax, restored, interpretation, frame)
     frame.put_footnote(ax)
     return ax
@@ -118,7 +118,7 @@ def up_to(restored: Restoration, count: int) -> Restoration:
     return restored if count == len(restored.stages) else replace(restored, stages=restored.stages[:count])
 
 
-def state(restored: Restoration) -> str:
+def titled(restored: Restoration) -> str:
     """What a picture of a restoration is called."""
     if not restored.stages:
         return restored.original.name or "section"
@@ -150,9 +150,9 @@ def draw_picks(ax: Axes, restored: Restoration, interpretation: Interpretation |
         for piece in pieces:
             ax.plot(*piece.T, color=colour, linewidth=1.6, solid_capstyle="round", path_effects=HALO)
     for pick, pieces in lines:
-        points = frame.seen(np.concatenate(pieces))
+        points = frame.seen(np.concatenate([np.empty((0, 2)), *pieces]))
         if len(points):
-            where = _beside_its_top(points, frame) if isinstance(pick, Fault) else _above_its_start(points)
+            where = _at_its_end(points, frame) if isinstance(pick, Fault) else _above_its_start(points)
             colour = FAULT if isinstance(pick, Fault) else HORIZON
             look = {"color": colour, "path_effects": HALO, "fontsize": 8.5, "fontweight": "bold"}
             ax.annotate(pick.name, textcoords="offset points", **where, **look)
@@ -161,17 +161,26 @@ def draw_picks(ax: Axes, restored: Restoration, interpretation: Interpretation |
 def carried(restored: Restoration, interpretation: Interpretation | None) -> list[tuple]:
     """Each pick and its lines as they lie now, the faults last so that they are drawn on top."""
     picks = () if interpretation is None else (*interpretation.horizons, *interpretation.faults)
-    return [(pick, restored.carried(pick)) for pick in picks]
+    return [(pick, restored.carried(pick) if restored.stages else _drawn(pick)) for pick in picks]
 
 
-def _beside_its_top(points, frame):
-    """Where a fault's name stands: in its footwall, which leaves room between faults that dip to each other."""
-    x_min, x_max, *_ = frame.window
+def _drawn(pick):
+    """The lines of a pick, be they on the section or not: a picture is where such a mistake is seen."""
+    return [pick.points] if isinstance(pick, Fault) else list(pick.pieces)
+
+
+def _at_its_end(points, frame):
+    """Where a fault's name stands: under it if there is room, else beside its top, in the footwall.
+
+    So names of faults that dip to each other stay apart, and away from those of horizons.
+    """
+    x_min, x_max, z_min, z_max = frame.window
     top, bottom = points[np.argmin(points[:, 1])], points[np.argmax(points[:, 1])]
+    if bottom[1] < z_max - 0.07 * (z_max - z_min):
+        return {"xy": bottom, "xytext": (0, -3), "ha": "center", "va": "top"}
     margin = 0.05 * (x_max - x_min)
-    on_the_left = bottom[0] >= top[0] if x_min + margin < top[0] < x_max - margin else top[0] > x_max - margin
-    side = -1 if on_the_left else 1
-    return {"xy": top, "xytext": (5 * side, -2), "ha": "right" if on_the_left else "left", "va": "top"}
+    left = bottom[0] >= top[0] if x_min + margin < top[0] < x_max - margin else top[0] > x_max - margin
+    return {"xy": top, "xytext": (-5 if left else 5, -2), "ha": "right" if left else "left", "va": "top"}
 
 
 def _above_its_start(points):
