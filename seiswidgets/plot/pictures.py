@@ -176,7 +176,7 @@ def _at_its_end(points, frame):
     """
     x_min, x_max, z_min, z_max = frame.window
     top, bottom = points[np.argmin(points[:, 1])], points[np.argmax(points[:, 1])]
-    if bottom[1] < z_max - 0.07 * (z_max - z_min):
+    if bottom[1] < z_max - 0.05 * (z_max - z_min):
         return {"xy": bottom, "xytext": (0, -3), "ha": "center", "va": "top"}
     margin = 0.05 * (x_max - x_min)
     left = bottom[0] >= top[0] if x_min + margin < top[0] < x_max - margin else top[0] > x_max - margin
