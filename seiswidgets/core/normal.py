@@ -20,7 +20,7 @@ class Gram:
         self.first, self.second, self._row = self.first[inner], self.second[inner], self._row[inner]
         one, other = one[inner], other[inner]
         keys = np.minimum(one, other) * size + np.maximum(one, other)
-        self.keys = np.unique(keys)
+        self.keys = _distinct(keys)
         self.place = np.searchsorted(self.keys, keys)
 
     def numbers(self, data, factor=None):
@@ -29,6 +29,12 @@ class Gram:
         if factor is not None:
             products *= factor[self._row]
         return np.bincount(self.place, products, minlength=len(self.keys))
+
+
+def _distinct(keys):
+    """The different keys in order: `np.unique`, but by sorting, which is several times faster for these."""
+    keys = np.sort(keys)
+    return keys[np.append(True, keys[1:] != keys[:-1])] if len(keys) else keys
 
 
 def _pairs_within_rows(pointers):
@@ -81,7 +87,7 @@ class NormalEquations:
                 self._constant[number] = jacobian
         self.factorisations = self.analyses = 0
         self._ordering = None
-        self._set_pattern(np.unique(np.concatenate(keys)))
+        self._set_pattern(_distinct(np.concatenate(keys)))
 
     def _set_pattern(self, keys):
         self._keys = keys
@@ -127,11 +133,11 @@ class NormalEquations:
             self._numbers[np.searchsorted(self._keys, gram.keys)] += gram.numbers(data)
 
     def _widen(self, wanted):
-        keys = np.unique(np.concatenate([np.empty(0, np.int64), *wanted]))
+        keys = _distinct(np.concatenate([np.empty(0, np.int64), *wanted]))
         place = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
         new = keys[self._keys[place] != keys]
         if len(new):
-            self._set_pattern(np.union1d(self._keys, new))
+            self._set_pattern(_distinct(np.concatenate([self._keys, new])))
 
     def step(self, damping: float, bending: float = 0.0):
         """The damped step, shape (n, 2); 0 for what is held.

@@ -51,7 +51,7 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     )
     unmet = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
     seconds = time.perf_counter() - began
-    return staged("flatten", ground, mesh, vertices, solution, options, seconds, beds=(report,), unmet=unmet)
+    return staged("flatten", (name,), ground, mesh, vertices, solution, options, seconds, beds=(report,), unmet=unmet)
 
 
 def _terms(mesh, bed, level, weights):

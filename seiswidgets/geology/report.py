@@ -41,6 +41,8 @@ class Report:
     Attributes
     ----------
     kind : "unfault" or "flatten"
+    picks : tuple of str
+        The names of the faults, or of the horizon.
     solver : str
     vertices, triangles : int
     iterations, factorisations : int
@@ -65,6 +67,7 @@ class Report:
     """
 
     kind: str
+    picks: tuple[str, ...]
     solver: str
     vertices: int
     triangles: int
@@ -87,9 +90,9 @@ class Report:
         state = "settled" if self.converged else "did NOT settle"
         iterations = f"{self.iterations} iterations, {self.factorisations} factorisations, {self.seconds:.2f} s"
         rows = [
-            (self.kind, f"{self.solver}: {state} in {iterations}"),
+            (f"{self.kind} {', '.join(self.picks)}", f"{self.solver}: {state} in {iterations}"),
             ("mesh", f"{self.vertices} vertices, {self.triangles} triangles, {self.flipped} flipped"),
-            ("energy", ", ".join(f"{name} {value:.3g}" for name, value in self.energy.items()) + " m²"),
+            ("energy (m²)", ", ".join(f"{name} {value:.2g}" for name, value in self.energy.items())),
             ("area ratio", ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())),
         ]
         rows += [
@@ -115,5 +118,8 @@ class Report:
         return "\n".join(f"{label:<{width}}  {text}" for label, text in rows)
 
     def _repr_html_(self):
-        cells = (f"<tr><th>{escape(label)}</th><td>{escape(text)}</td></tr>" for label, text in self.rows())
+        left = 'style="text-align: left"'
+        cells = (
+            f"<tr><th {left}>{escape(label)}</th><td {left}>{escape(text)}</td></tr>" for label, text in self.rows()
+        )
         return f"<table>{''.join(cells)}</table>"

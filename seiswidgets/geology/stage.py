@@ -59,32 +59,40 @@ class Stage:
 
     def carried_horizon(self, pieces) -> list[LineString]:
         """The pieces of a horizon as they lie after the step, drawn on to the faults they end at."""
-        return self._carried(parts(pieces, self.faults))
+        return self._carried([part.line for part in parts(pieces, self.faults)], sideways=0.0)
 
     def carried_fault(self, line) -> list[LineString]:
-        """A fault as it lies after the step, in order, parted where another fault crosses it."""
-        return self._carried(split_piece(line, self.faults))
+        """A fault as it lies after the step, in order, parted where another fault crosses it.
 
-    def _carried(self, lines):
-        carried = [self._moved(part.line) for part in lines]
+        A fault that the mesh is cut along goes with one of its sides, the same from end to end.
+        """
+        return self._carried([part.line for part in split_piece(line, self.faults)], sideways=1e-3 * self.spacing)
+
+    def _carried(self, lines, sideways):
+        carried = [self._moved(line, sideways) for line in lines]
         return [line for line in carried if line is not None]
 
-    def _moved(self, line):
+    def _moved(self, line, sideways):
         points = shapely.get_coordinates(line.segmentize(self.spacing / 2))
-        inwards = points.copy()  # an end on a fault belongs to the side from which the line comes
-        nudge = min(1e-3 * self.spacing, line.length / 4)
-        inwards[[0, -1]] = [line.interpolate(way).coords[0] for way in (nudge, line.length - nudge)]
-        moved = self.map.forward(points, self.map.source_finder(inwards))
+        within = (
+            points.copy()
+        )  # in the triangles that carry the points: the line's end on a fault belongs to its own side
+        nudge = min(2e-3 * self.spacing, line.length / 4)
+        within[[0, -1]] = [line.interpolate(way).coords[0] for way in (nudge, line.length - nudge)]
+        along = np.gradient(points, axis=0)
+        within += sideways * along[:, ::-1] * [-1, 1] / np.hypot(*along.T)[:, None]
+        moved = self.map.forward(points, self.map.source_finder(within))
         moved = moved[np.isfinite(moved).all(axis=1)]
         return LineString(moved) if len(moved) > 1 else None
 
 
-def staged(kind, ground, mesh, vertices, solution, options, seconds, faults=(), **found) -> Stage:
+def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faults=(), **found) -> Stage:
     """The stage that a solution makes, with its report."""
     ratio = deformation.area_ratio(mesh, vertices)
     percents = (1, 50, 99)
     report = Report(
         kind=kind,
+        picks=picks,
         solver=options.solver,
         vertices=len(mesh.vertices),
         triangles=len(mesh.triangles),

@@ -170,10 +170,10 @@ def sine_fold(
 
 
 def blind_fault(
-    slip: float = 60.0,
+    slip: float = 40.0,
     dip: float = 60.0,
-    length: float = 900.0,
-    horizons: Depths = (800.0, 1000.0, 1200.0),
+    length: float = 500.0,
+    horizons: Depths = (850.0, 1000.0, 1150.0),
     **survey: float,
 ) -> Synthetic:
     """A straight normal fault in the middle that dies out at both tips; slip (m) is the largest, at its centre.

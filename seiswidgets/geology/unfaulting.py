@@ -72,10 +72,9 @@ def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Opti
     blocks = _blocks(ground, faults, horizons)
     mesh, free = blocks.cut.mesh, _free(blocks.cut.mesh, fixed, ground)
     terms = _terms(blocks, options.weights)
-    between = [term for term in terms if isinstance(term, Contact | Stitch)]
     start = mesh.vertices  # the paper's own start
     if options.solver == GAUSS_NEWTON:
-        start = rigid_blocks(mesh.blocks, between, _slid_together(mesh, blocks.stitches, free), free)
+        start = _slid_together(mesh, blocks.stitches, free, terms)
     adrift = bool(free.all())
     solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where, adrift)
     seams, gave_way = _seams(blocks, solution, ground)
@@ -89,7 +88,18 @@ def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Opti
     whole, vertices = welded(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
     found = {"seams": seams, "cutoffs": cutoffs, "beds": beds, "unmet": (*apart, *gave_way)}
     lines = tuple(blocks.drawing.faults.values())
-    return staged("unfault", ground, whole, vertices, solution, options, time.perf_counter() - began, lines, **found)
+    return staged(
+        "unfault",
+        tuple(blocks.drawing.faults),
+        ground,
+        whole,
+        vertices,
+        solution,
+        options,
+        time.perf_counter() - began,
+        lines,
+        **found,
+    )
 
 
 def _blocks(ground, faults, horizons):
@@ -168,11 +178,14 @@ def _terms(blocks, weights):
     ]
 
 
-def _slid_together(mesh, stitches, free):
-    """Blocks shifted so that their cut-offs meet, one after the other from the block that stays (or the largest)."""
+def _slid_together(mesh, stitches, free, terms):
+    """Where the solver starts: blocks moved as wholes so that their cut-offs meet and their sides touch.
+
+    They are shifted one after the other, from the block that stays (or the largest), then moved and turned together.
+    """
     label = mesh.blocks
-    shift = np.full((label.max() + 1, 2), np.nan)
     root = label[~free][0] if not free.all() else np.bincount(label, vertex_masses(mesh)).argmax()
+    shift = np.full((label.max() + 1, 2), np.nan)
     shift[root] = 0
     queue = deque([root])
     while queue:
@@ -183,7 +196,8 @@ def _slid_together(mesh, stitches, free):
                     pair = (label[near] == block) & (label[far] == other)
                     shift[other] = shift[block] + np.mean(mesh.vertices[near[pair]] - mesh.vertices[far[pair]], axis=0)
                     queue.append(other)
-    return mesh.vertices + np.nan_to_num(shift)[label]
+    between = [term for term in terms if isinstance(term, Contact | Stitch)]
+    return rigid_blocks(label, between, mesh.vertices + np.nan_to_num(shift)[label], label != root)
 
 
 def _still_side_last(sides, free):

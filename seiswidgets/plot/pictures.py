@@ -170,15 +170,17 @@ def _drawn(pick):
 
 
 def _at_its_end(points, frame):
-    """Where a fault's name stands: under it if there is room, else beside its top, in the footwall.
+    """Where a fault's name stands: below it or above it if there is room, else beside its top, in the footwall.
 
     So names of faults that dip to each other stay apart, and away from those of horizons.
     """
     x_min, x_max, z_min, z_max = frame.window
     top, bottom = points[np.argmin(points[:, 1])], points[np.argmax(points[:, 1])]
-    if bottom[1] < z_max - 0.05 * (z_max - z_min):
+    room, margin = 0.08 * (z_max - z_min), 0.05 * (x_max - x_min)
+    if bottom[1] < z_max - room:
         return {"xy": bottom, "xytext": (0, -3), "ha": "center", "va": "top"}
-    margin = 0.05 * (x_max - x_min)
+    if top[1] > z_min + 2 * room:
+        return {"xy": top, "xytext": (0, 3), "ha": "center", "va": "bottom"}
     left = bottom[0] >= top[0] if x_min + margin < top[0] < x_max - margin else top[0] > x_max - margin
     return {"xy": top, "xytext": (-5 if left else 5, -2), "ha": "right" if left else "left", "va": "top"}
 

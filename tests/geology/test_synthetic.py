@@ -25,7 +25,7 @@ CASES = {
     "fold 45": (synthetic.sine_fold, {"dip": 45}),
     "fold 62": (synthetic.sine_fold, {"dip": 62}),
     "blind": (synthetic.blind_fault, {}),
-    "blind, large slip": (synthetic.blind_fault, {"slip": 200}),
+    "blind, large slip": (synthetic.blind_fault, {"slip": 200, "length": 900}),
     "blind, to the left": (synthetic.blind_fault, {"dip": 120}),
     "faulted fold": (synthetic.faulted_fold, {}),
     "faulted fold, one horizon": (synthetic.faulted_fold, {"horizons": (900.0,), "throw": 250}),
@@ -254,7 +254,7 @@ def test_blind_restoration_inverts_the_slip(slip):
 
 
 def test_blind_restoration_is_finite_everywhere():
-    answer = synthetic.blind_fault(slip=200)
+    answer = synthetic.blind_fault(slip=200, length=900)
     tip = answer.interpretation.faults[0].points[0]
     near = tip + np.random.default_rng(0).normal(scale=3, size=(5000, 2))
     moved = np.linalg.norm(answer.to_restored(np.vstack([near, tip])) - np.vstack([near, tip]), axis=1)
@@ -298,7 +298,7 @@ def test_survey_sets_size_and_spacing():
         (synthetic.sine_fold, {"dip": 70}, "the horizon at 750 m must have one piece"),
         (synthetic.sine_fold, {"dip": 80}, "dip must be from 0 to 75 degrees"),
         (synthetic.blind_fault, {"length": 4000}, "fault F1 must end inside the section"),
-        (synthetic.blind_fault, {"slip": 800}, "slip must be from 0 to 225 m"),
+        (synthetic.blind_fault, {"slip": 800}, "slip must be from 0 to 125 m"),
         (synthetic.blind_fault, {"horizons": (300.0,)}, "the horizon at 300 m must have one piece"),
         (synthetic.graben, {"floor": 0}, "floor must be from 10"),
         (synthetic.tilt, {"noise": -1}, "noise must be from 0 to 10, but is -1"),

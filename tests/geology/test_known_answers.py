@@ -1,0 +1,96 @@
+"""Sections whose true restoration is known: what is left is the fault's polyline and the solver."""
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from tests.geology.answers import block_errors, largest_throw, spacing_for
+
+CASES = {
+    "planar": (sw.synthetic.planar_fault, {}),
+    "dipping left": (sw.synthetic.planar_fault, {"dip": 120, "throw": 100}),
+    **{f"listric {turn}": (sw.synthetic.listric_fault, {"turn": turn}) for turn in (0.05, 0.1, 0.2, 0.3)},
+    "graben": (sw.synthetic.graben, {}),
+    **{
+        f"domino {faults} x {turn}": (sw.synthetic.domino, {"faults": faults, "turn": turn})
+        for faults, turn in ((1, 12), (2, 5), (7, 9), (15, 12))
+    },
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def case(request):
+    make, keywords = CASES[request.param]
+    return make(**keywords)
+
+
+@pytest.mark.parametrize("vertices", [600, 5000, 20000])
+@pytest.mark.parametrize("held", [True, False], ids=["held", "free"])
+def test_blocks_come_back(case, vertices, held):
+    start = sw.Restoration(case.section, spacing_for(case.section, vertices))
+    picks = case.interpretation
+    stage = start.unfault(picks.faults, picks.horizons, fixed=case.fixed if held else None).stages[-1]
+    errors, block = block_errors(stage, case.to_unfaulted, case.block, rigid=not held)
+    assert stage.report.converged
+    assert stage.report.iterations <= 10
+    assert stage.report.unmet == ()
+    assert errors.max() <= 2e-3 * largest_throw(stage)
+    if held:
+        assert (errors[block == 0] == 0).all()
+
+
+def test_a_held_block_does_not_move_at_all(case):
+    picks = case.interpretation
+    stage = sw.Restoration(case.section).unfault(picks.faults, picks.horizons, fixed=case.fixed).stages[-1]
+    label = case.block(stage.mesh.vertices[stage.mesh.triangles].mean(axis=1))
+    part = stage.mesh.blocks[stage.mesh.triangles[:, 0]]
+    still = np.unique(stage.mesh.triangles[part == np.bincount(part[label == 0]).argmax()])
+    assert len(still) > 30
+    np.testing.assert_array_equal(stage.vertices[still], stage.mesh.vertices[still])
+
+
+@pytest.mark.parametrize("dip", [2, 10, 25])
+@pytest.mark.parametrize("vertices", [600, 5000, 20000])
+def test_a_tilted_section_turns_back(dip, vertices):
+    case = sw.synthetic.tilt(dip=dip)
+    restored = sw.Restoration(case.section, spacing_for(case.section, vertices)).flatten(case.interpretation.horizons[1])
+    stage = restored.stages[-1]
+    off = stage.vertices - case.to_restored(stage.mesh.vertices)
+    errors = np.hypot(*(off - off.mean(axis=0)).T)  # how far the whole moves sideways, and its datum, are a choice
+    relief = np.ptp(case.interpretation.horizons[1].pieces[0][:, 1])
+    assert stage.report.converged
+    assert stage.report.iterations <= 10
+    assert errors.max() <= 2e-3 * relief
+
+
+@pytest.mark.parametrize("dip", [10, 30, 45, 62])
+def test_a_fold_becomes_level_and_keeps_its_length(dip):
+    case = sw.synthetic.sine_fold(dip=dip)
+    stage = sw.Restoration(case.section).flatten(case.interpretation.horizons[1]).stages[-1]
+    (bed,) = stage.report.beds
+    assert stage.report.converged
+    assert stage.report.flipped == 0
+    assert bed.flatness < 0.1 * case.section.dz
+    assert abs(bed.length_change) < {10: 0.003, 30: 0.02, 45: 0.06, 62: 0.15}[dip]
+
+
+def test_a_heavier_length_weight_keeps_the_bed_better():
+    case = sw.synthetic.sine_fold(dip=45)
+    changes = [
+        sw.Restoration(case.section)
+        .flatten(case.interpretation.horizons[1], weights=sw.Weights(length=length))
+        .stages[-1]
+        .report.beds[0]
+        .length_change
+        for length in (1, 10, 100)
+    ]
+    assert (np.diff(np.abs(changes)) < 0).all()
+
+
+def test_the_datum_is_where_the_horizon_comes_to_lie():
+    case = sw.synthetic.sine_fold(dip=20)
+    horizon = case.interpretation.horizons[1]
+    for datum in (950.0, 1100.0):
+        restored = sw.Restoration(case.section).flatten(horizon, datum=datum)
+        (line,) = restored.carried(horizon)
+        assert np.abs(line[:, 1] - datum).max() < 0.3 * case.section.dz
