@@ -53,15 +53,24 @@ def spacing(section, count):
     return float(np.sqrt(width * height / count))
 
 
-POINTS = st.lists(st.tuples(st.floats(-0.02, 1.02), st.floats(-0.02, 1.02)), min_size=2, max_size=6)
+@st.composite
+def points(draw):
+    """Two to five points anywhere in a section, now and then a little outside it; shares of its width and height."""
+    rng = np.random.default_rng(draw(st.integers(0, 10**6)))
+    line = rng.uniform(0, 1, (draw(st.integers(2, 5)), 2))
+    if draw(st.booleans()):
+        line = line[np.argsort(line[:, rng.integers(2)])]
+    line = line + draw(st.sampled_from([0.0] * 9 + [0.3]))
+    line[draw(st.integers(0, len(line) - 1))] = draw(SHARE), draw(SHARE)
+    return line
 
 
 @st.composite
 def wild_drawings(draw):
     section = draw(sections())
-    faults = [sw.Fault(placed(section, draw(POINTS)), name=f"F{k}") for k in range(draw(st.integers(1, 3)))]
+    faults = [sw.Fault(placed(section, draw(points())), name=f"F{k}") for k in range(draw(st.integers(1, 3)))]
     horizons = [
-        sw.Horizon(*(placed(section, draw(POINTS)) for _ in range(draw(st.integers(1, 3)))), name=f"H{k}")
+        sw.Horizon(*(placed(section, draw(points())) for _ in range(draw(st.integers(1, 3)))), name=f"H{k}")
         for k in range(draw(st.integers(1, 2)))
     ]
     return section, faults, horizons

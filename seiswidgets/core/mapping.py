@@ -7,7 +7,7 @@ import numpy as np
 
 from seiswidgets.core.mesh import triangle_areas
 
-TOLERANCE = 1e-6  # how far outside still counts as inside: of a triangle, a grid cell, a sample
+TOLERANCE = 1e-5  # how far outside still counts as inside: of a triangle, a grid cell, a sample
 MOST_CELLS = 1_000_000
 CELLS_ACROSS = 2  # finder cells along the side of a median triangle: more build slower and find faster
 BATCH = 16_384  # points found at a time: what fits the processor's cache

@@ -62,10 +62,15 @@ class Mesh:
         return self._edges_of_half_edges[0]
 
     @cached_property
+    def boundary_half_edges(self) -> np.ndarray:
+        """Indices of the half-edges whose edge has one triangle only, shape (b,)."""
+        _, inverse, counts = self._edges_of_half_edges
+        return np.flatnonzero(counts[inverse] == 1)
+
+    @property
     def boundary(self) -> np.ndarray:
         """Edges with one triangle only, directed so that the mesh lies on one same side; shape (b, 2)."""
-        _, inverse, counts = self._edges_of_half_edges
-        return self.half_edges[counts[inverse] == 1]
+        return self.half_edges[self.boundary_half_edges]
 
     @cached_property
     def contour(self) -> np.ndarray:

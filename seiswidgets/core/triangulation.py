@@ -6,13 +6,17 @@ J. R. Shewchuk, Triangle: engineering a 2D quality mesh generator and Delaunay t
 import numpy as np
 import shapely
 import triangle
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.errors import SettingError
 
 LEAST_ANGLE = 30  # degrees; Triangle is sure to end up to about 33
 LARGEST_AREA = 0.7  # of the squared spacing; the mean then comes close to the equilateral triangle's 0.43
-SNAP = 2.0**-24  # of the outline's width and height; what lies closer becomes one place
+SNAP = 2.0**-30  # of the outline's width and height; what lies closer becomes one place
+MERGED = 1e-3  # of the spacing: places that lie closer become one
 REACH = 0.1  # of the spacing: a line that ends so close to the outline meets it
 DENSITY = 1.15  # vertices in a square whose side is the spacing
 TOO_MANY = 250_000
@@ -39,7 +43,7 @@ def triangulate(outline, lines, spacing: float) -> Mesh:
     """
     _check_count(outline, spacing)
     lines = [_reaching(line, outline.boundary, REACH * spacing) for line in lines]
-    vertices, segments = _graph(outline, shapely.segmentize(lines, spacing))
+    vertices, segments = _merged(*_graph(outline, shapely.segmentize(lines, spacing)), outline, MERGED * spacing)
     origin = np.array(outline.bounds[:2])
     drawing = {"vertices": (vertices - origin) / spacing, "segments": segments}  # Triangle is at its best near 1
     if holes := _holes(outline):
@@ -95,6 +99,21 @@ def _graph(outline, lines):
     return low + vertices * (high - low), np.column_stack([index[along], index[along + 1]])
 
 
+def _merged(vertices, segments, outline, reach):
+    """A graph whose places lie apart: those closer than the reach become one, on the outline where one of them is."""
+    pairs = cKDTree(vertices).query_pairs(reach, output_type="ndarray")
+    if not len(pairs):
+        return vertices, segments
+    graph = coo_array((np.ones(len(pairs), bool), pairs.T), shape=(len(vertices),) * 2)
+    _, place = connected_components(graph, directed=False)
+    corners = shapely.multipoints(shapely.get_coordinates(outline))
+    points = shapely.points(vertices)
+    order = np.lexsort([shapely.distance(points, corners), np.round(shapely.distance(points, outline.boundary), 9)])
+    _, first = np.unique(place[order], return_index=True)
+    segments = np.sort(place[segments], axis=1)
+    return vertices[order[first]], np.unique(segments[segments[:, 0] != segments[:, 1]], axis=0)
+
+
 def _holes(outline):
     rings = [ring for part in shapely.get_parts(outline) for ring in part.interiors]
     return [shapely.Polygon(ring).representative_point().coords[0] for ring in rings]
@@ -102,6 +121,8 @@ def _holes(outline):
 
 def _mesh(result, origin, spacing):
     triangles = result.get("triangles", np.empty((0, 3), int))
+    if len(result["vertices"]) >= TOO_MANY:
+        _raise_crowded(result["vertices"][triangles] * spacing + origin)
     used, renumbered = np.unique(triangles, return_inverse=True)
     if len(used) < TOO_FEW:
         raise SettingError(
@@ -112,6 +133,16 @@ def _mesh(result, origin, spacing):
     inverted = triangle_areas(vertices, triangles) < 0
     triangles[inverted] = triangles[inverted, ::-1]
     return Mesh(vertices, triangles)
+
+
+def _raise_crowded(corners):
+    sides = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0))
+    triangle, corner = np.unravel_index(np.argmin(sides), sides.shape)
+    x, z = corners[triangle, corner]
+    raise SettingError(
+        f"two lines lie so close together near x={x:.6g} m, z={z:.6g} m (of rock), or meet at so small an angle, that the "
+        f"mesh would need more than {TOO_MANY:,} vertices, the limit; part them, or leave one of them out"
+    )
 
 
 def edges_along(mesh: Mesh, line) -> np.ndarray:

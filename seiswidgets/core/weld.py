@@ -110,7 +110,7 @@ def _beyond(way, other, count):
 
 def _split(mesh, vertices, splits):
     """Triangles at split edges replaced by fans from their far corner; those that would have no area stay."""
-    corner_of = {tuple(edge): number for number, edge in enumerate(mesh.half_edges.tolist())}
+    corner_of = {tuple(mesh.half_edges[number].tolist()): number for number in mesh.boundary_half_edges}
     rest, moved, gone, fans = [mesh.vertices], [vertices], set(), []
     count = len(vertices)
     for (first, second), inner in splits.items():

@@ -178,12 +178,8 @@ def hanging_side(fault: LineString, place, point) -> int:
 
 
 def _points(geometry):
-    """The points that lines have in common; of a common stretch, its middle."""
-    return [
-        part.centroid if part.geom_type != "Point" else part
-        for part in shapely.get_parts(geometry)
-        if not part.is_empty
-    ]
+    """The points that lines have in common; where they share a stretch, neither parts the other there."""
+    return [part for part in shapely.get_parts(geometry) if part.geom_type == "Point" and not part.is_empty]
 
 
 @dataclass(frozen=True, eq=False)

@@ -123,9 +123,12 @@ def _polyline(points, what):
 
 def _self_crossing(line):
     """The first place where a polyline meets itself again."""
+    line = line[np.append(True, (line[1:] != line[:-1]).any(axis=1))]
     segments = shapely.linestrings(np.stack([line[:-1], line[1:]], axis=1))
-    for second in range(2, len(segments)):
-        for first in range(second - 1):
-            if segments[first].intersects(segments[second]):
-                return segments[first].intersection(segments[second]).centroid.coords[0]
-    return tuple(line[len(line) // 2])  # it runs back over its own last stretch
+    for number in range(1, len(segments)):
+        shared = shapely.intersection(segments[:number], segments[number])
+        again = ~shapely.is_empty(shared)
+        again[-1] = shapely.length(shared[-1]) > 0  # neighbours have a point in common anyway
+        if again.any():
+            return shared[np.argmax(again)].centroid.coords[0]
+    return tuple(line[0])

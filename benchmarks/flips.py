@@ -1,0 +1,63 @@
+"""Random restorations by both solvers: triangles that were turned over, and what became of the rest.
+
+Each stage is given to the fixed point as Gauss-Newton's stages before have left the section.
+"""
+
+import multiprocessing
+import os
+
+import numpy as np
+from tests.cases import SPACING, random_case
+
+import seiswidgets as sw
+from seiswidgets.core.mesh import triangle_areas
+
+CASES = 1000
+FIXED_POINT_ITERATIONS = 50  # more take hours; its flips come early
+
+
+def rows():
+    os.environ |= dict.fromkeys(["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"], "1")  # for the processes to come
+    with multiprocessing.get_context("spawn").Pool() as pool:
+        stages = [stage for case in pool.imap(restored, range(CASES), chunksize=5) for stage in case]
+    ours, theirs = (sum(stage.get(solver, 0) for stage in stages) for solver in ("ours", "theirs"))
+    yield f"flipped in {CASES:,} random cases / fixed point", ours, theirs, "", "0", "NO" if ours else "yes", 1
+    ours, theirs = (sum(stage.get(solver, 0) > 0 for stage in stages) for solver in ("ours", "theirs"))
+    yield f"  stages with a flip, of {len(stages):,}", ours, theirs, "", "", "", 1
+    for state in sorted({stage["state"] for stage in stages}):
+        seeds = [stage["seed"] for stage in stages if stage["state"] == state]
+        yield f"  {state}", len(seeds), " ".join(map(str, seeds[:4])), "", "", "", 1
+
+
+def restored(seed):
+    """What became of each stage of a case: its state and, of either solver, the number of flipped triangles."""
+    section, faults, horizons, fixed = random_case(seed)
+    before, stages = sw.Restoration(section, spacing=SPACING), []
+    for kind, solve in (
+        ("unfault", lambda before, **solver: before.unfault(faults, horizons, fixed=fixed, **solver)),
+        ("flatten", lambda before, **solver: before.flatten(horizons[0], **solver)),
+    ):
+        try:
+            after = solve(before)
+        except sw.SeiswidgetsError as error:
+            stages.append({"seed": seed, "state": f"{kind}: {type(error).__name__}: {error}"[:58]})
+            break
+        report = after.stages[-1].report
+        state = ("settled" if report.converged else "not settled") + (", with a constraint unmet" if report.unmet else "")
+        stages.append({"seed": seed, "state": f"{kind}: {state}", "ours": flips(after), "theirs": refused(solve, before)})
+        before = after
+    return stages
+
+
+def flips(restoration):
+    stage = restoration.stages[-1]
+    return int(np.sum(triangle_areas(stage.vertices, stage.mesh.triangles) <= 0))
+
+
+def refused(solve, before):
+    """How many triangles the fixed point turns over."""
+    try:
+        solve(before, solver="fixed-point", max_iterations=FIXED_POINT_ITERATIONS)
+    except sw.FlippedError as error:
+        return error.count
+    return 0

@@ -1,0 +1,39 @@
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.core.mesh import triangle_areas
+from tests.cases import SPACING, random_case
+
+
+def assert_no_flips(restoration):
+    for stage in restoration.stages:
+        assert stage.report.flipped == 0
+        assert triangle_areas(stage.mesh.vertices, stage.mesh.triangles).min() > 0
+        assert triangle_areas(stage.vertices, stage.mesh.triangles).min() > 0
+
+
+@pytest.mark.parametrize("seed", range(100))
+def test_no_triangle_flips_and_points_come_back(seed):
+    section, faults, horizons, fixed = random_case(seed)
+    unfaulted = sw.Restoration(section, spacing=SPACING).unfault(faults, horizons, fixed=fixed)
+    restored = unfaulted.flatten(horizons[0])
+    assert_no_flips(restored)
+    if any(stage.report.unmet or not stage.report.converged for stage in restored.stages):
+        return  # blocks may still overlap, and two places be one
+    x_min, x_max, z_min, z_max = section.extent
+    points = np.random.default_rng(seed).uniform((x_min, z_min), (x_max, z_max), (1000, 2))
+    there = restored.to_restored(points)
+    mapped = np.isfinite(there).all(axis=1)
+    assert mapped.mean() > 0.99
+    np.testing.assert_allclose(restored.to_original(there[mapped]), points[mapped], rtol=0, atol=1e-6 * SPACING)
+
+
+def test_picks_that_contradict_each_other_are_named():
+    case = sw.synthetic.planar_fault(throw=150.0)
+    (fault,), (first, second, third) = case.interpretation.faults, case.interpretation.horizons
+    swapped = sw.Horizon(first.pieces[0], second.pieces[1], name="first left, second right")  # 550 m of throw
+    restored = sw.Restoration(case.section, spacing=SPACING).unfault(fault, [swapped, third], fixed=case.fixed)
+    assert_no_flips(restored)
+    unmet = " ".join(restored.stages[-1].report.unmet)
+    assert "first left, second right at fault F1: its cut-offs are still" in unmet.replace("horizon ", "")
