@@ -7,10 +7,10 @@ import multiprocessing
 import os
 
 import numpy as np
-from tests.cases import SPACING, random_case
 
 import seiswidgets as sw
 from seiswidgets.core.mesh import triangle_areas
+from tests.cases import SPACING, random_case
 
 CASES = 1000
 FIXED_POINT_ITERATIONS = 50  # more take hours; its flips come early
@@ -43,8 +43,12 @@ def restored(seed):
             stages.append({"seed": seed, "state": f"{kind}: {type(error).__name__}: {error}"[:58]})
             break
         report = after.stages[-1].report
-        state = ("settled" if report.converged else "not settled") + (", with a constraint unmet" if report.unmet else "")
-        stages.append({"seed": seed, "state": f"{kind}: {state}", "ours": flips(after), "theirs": refused(solve, before)})
+        state = ("settled" if report.converged else "not settled") + (
+            ", with a constraint unmet" if report.unmet else ""
+        )
+        stages.append(
+            {"seed": seed, "state": f"{kind}: {state}", "ours": flips(after), "theirs": refused(solve, before)}
+        )
         before = after
     return stages
 

@@ -38,6 +38,8 @@ def rows():
 
 def memory(name, spacing):
     code = LARGE.format(case=name, spacing=spacing)
-    vertices, size = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    vertices, size = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.split()
     what = f"  peak memory of a process with {int(vertices):,} vertices"
     return at_most(what, f"{int(size) / 1e9:.2f} GB", f"{MOST_BYTES / 1e9:g} GB", int(size) / MOST_BYTES, 1, 1)

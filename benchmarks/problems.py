@@ -13,7 +13,7 @@ from seiswidgets.geology.solving import TOLERANCE
 
 
 @dataclass
-class Problem(Exception):  # noqa: N818
+class Problem(Exception):
     """Raised in place of solving."""
 
     mesh: Mesh

@@ -22,7 +22,9 @@ CLOSE = 0.05  # of the largest throw
 def rows():
     yield from listric()
     for count, runs in ((5_000, 5), (20_000, 3), (50_000, 3)):
-        yield overhead(f"flatten sine fold of 30°, {count:,} vertices", problem(sw.synthetic.sine_fold(dip=30), count), runs)
+        yield overhead(
+            f"flatten sine fold of 30°, {count:,} vertices", problem(sw.synthetic.sine_fold(dip=30), count), runs
+        )
         yield overhead(f"unfault blind fault, {count:,} vertices", problem(sw.synthetic.blind_fault(), count), runs)
         yield overhead(f"unfault listric fault, {count:,} vertices", problem(sw.synthetic.listric_fault(), count), runs)
 
@@ -42,8 +44,12 @@ def listric():
         return rigid_blocks(*listric.rigid[0])
 
     rest = listric.mesh.vertices
-    ours = np.median([arrival(lambda progress: listric.solved(start=slid(), progress=progress), there) for _ in range(5)])
-    unmoved = np.median([arrival(lambda progress: listric.solved(start=rest, progress=progress), there) for _ in range(5)])
+    ours = np.median(
+        [arrival(lambda progress: listric.solved(start=slid(), progress=progress), there) for _ in range(5)]
+    )
+    unmoved = np.median(
+        [arrival(lambda progress: listric.solved(start=rest, progress=progress), there) for _ in range(5)]
+    )
     settings = listric.terms, rest, listric.free, listric.tolerance, CAP
     peer = arrival(lambda progress: fixed_point(*settings, progress), there)
     what = f"listric block to 5% of its throw, {len(rest):,} vertices"

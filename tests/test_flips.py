@@ -31,9 +31,12 @@ def test_no_triangle_flips_and_points_come_back(seed):
 
 def test_picks_that_contradict_each_other_are_named():
     case = sw.synthetic.planar_fault(throw=150.0)
-    (fault,), (first, second, third) = case.interpretation.faults, case.interpretation.horizons
-    swapped = sw.Horizon(first.pieces[0], second.pieces[1], name="first left, second right")  # 550 m of throw
-    restored = sw.Restoration(case.section, spacing=SPACING).unfault(fault, [swapped, third], fixed=case.fixed)
+    (fault,), (first, _, third) = case.interpretation.faults, case.interpretation.horizons
+    # what is the upper bed on one side is the lower one on the other: throws of 950 m and -650 m
+    falling = sw.Horizon(first.pieces[0], third.pieces[1], name="falling")
+    rising = sw.Horizon(third.pieces[0], first.pieces[1], name="rising")
+    restored = sw.Restoration(case.section, spacing=SPACING).unfault(fault, [falling, rising], fixed=case.fixed)
     assert_no_flips(restored)
-    unmet = " ".join(restored.stages[-1].report.unmet)
-    assert "first left, second right at fault F1: its cut-offs are still" in unmet.replace("horizon ", "")
+    unmet = restored.stages[-1].report.unmet
+    for name in ("falling", "rising"):
+        assert any(text.startswith(f"horizon {name} at fault F1: its cut-offs are still") for text in unmet)

@@ -139,22 +139,25 @@ class NormalEquations:
         if len(new):
             self._set_pattern(_distinct(np.concatenate([self._keys, new])))
 
-    def step(self, damping: float, bending: float = 0.0):
+    def step(self, damping: float, bending: float | None = None):
         """The damped step, shape (n, 2); 0 for what is held.
 
         Parameters
         ----------
         damping : float
             What is added to the diagonal, in units of its mean.
-        bending : float
+        bending : float, optional
             The share that is taken of the second derivatives of what is shortened. With 1, and all of those of what
-            is stretched, the step is Newton's; with less the matrix is more surely positive definite.
+            is stretched, the step is Newton's; with less the matrix is more surely positive definite. Without it the
+            step is Gauss-Newton's.
 
         Raises
         ------
         NotPositiveDefinite
         """
-        numbers = self._numbers + self._stretched + bending * self._shortened
+        numbers = self._numbers.copy()
+        if bending is not None:
+            numbers += self._stretched + bending * self._shortened
         numbers[self._diagonal] += damping * self._numbers[self._diagonal].sum() / max(self.size, 1)
         self.factorisations += 1
         self._cholesky.factorise(numbers)

@@ -14,6 +14,7 @@ from seiswidgets.errors import Cancelled
 LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the mean diagonal; the least only tames motions that cost nothing
 LEAST_BENDING = 0.1  # share of the second derivatives that is worth a try
 HALVINGS = 5
+SLOW = 0.8  # share of the energy left by a step: with more, much of the residual is there to stay
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +69,9 @@ def first_flip(vertices, step, triangles) -> float:
 def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, progress=None) -> Solution:
     """Minimise the energy by damped Gauss-Newton steps that never turn a triangle over.
 
+    Where a step has left most of the energy, the next takes second derivatives in as well and is Newton's (Fletcher and
+    Xu, Hybrid methods for nonlinear least squares, 1987): Gauss-Newton alone gets slow where residuals stay large.
+
     Parameters
     ----------
     terms : list of terms
@@ -91,7 +95,8 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     energies, converged, iteration = [energy(terms, vertices)], False, 0
     while not converged and iteration < max_iterations:
         equations.at(terms, vertices)
-        moved, full = _descent(equations, terms, vertices, triangles, caution, tolerance)
+        curved = len(energies) > 1 and energies[-1] > SLOW * energies[-2]
+        moved, full = _descent(equations, terms, vertices, triangles, caution, tolerance, curved)
         if moved is None:
             break
         converged = full and _farthest(moved - vertices) <= tolerance
@@ -126,7 +131,7 @@ class Caution:
         self.bending = min(1.5 * max(self.bending, LEAST_BENDING), 1.0)
 
 
-def _descent(equations, terms, vertices, triangles, caution, tolerance):
+def _descent(equations, terms, vertices, triangles, caution, tolerance, curved):
     """The vertices after a step that lowers the energy, None if there is none, and whether it was an undamped full step.
 
     A step within the tolerance is taken as it is: rounding would hide what it gains.
@@ -134,9 +139,9 @@ def _descent(equations, terms, vertices, triangles, caution, tolerance):
     before = energy(terms, vertices)
     while caution.damping <= MOST_DAMPING:
         try:
-            step = equations.step(caution.damping, caution.bending)
+            step = equations.step(caution.damping, caution.bending if curved else None)
         except NotPositiveDefinite:
-            caution.more_convex()
+            caution.more_convex() if curved else caution.shorter()
             continue
         undamped = caution.damping == LEAST_DAMPING
         length = min(1.0, 0.9 * first_flip(vertices, step, triangles))

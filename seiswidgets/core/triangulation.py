@@ -145,15 +145,22 @@ def _raise_crowded(corners):
     )
 
 
-def edges_along(mesh: Mesh, line) -> np.ndarray:
+def edges_along(mesh: Mesh, line, spacing: float) -> np.ndarray:
     """The mesh's edges that lie on a line which it was made to conform to, in order and direction of the line.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    line : shapely LineString
+    spacing : float
+        Of the mesh.
 
     Returns
     -------
     array, shape (k, 2)
         Pairs of vertices.
     """
-    tolerance = 4 * SNAP * np.ptp(mesh.vertices, axis=0).max()
+    tolerance = 2 * MERGED * spacing
     shapely.prepare(line)
     near = shapely.dwithin(line, shapely.points(mesh.vertices), tolerance)
     edges = mesh.edges[near[mesh.edges].all(axis=1)]

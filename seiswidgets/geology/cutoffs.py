@@ -193,11 +193,14 @@ class Drawing:
     horizons : dict of str to list of Part
     where : callable(point) -> str
         How errors name a place.
+    unit : str
+        Of lengths, in errors.
     """
 
     faults: dict[str, LineString]
     horizons: dict[str, list[Part]]
     where: Callable[[tuple[float, float]], str]
+    unit: str = " m"
 
     def cutoffs(self) -> list[CutOffs]:
         """All pairs of cut-offs of the horizons at the faults.
@@ -258,8 +261,9 @@ class Drawing:
                 end = None if part.ends[place] else _reached(part.line, place, [line], 1e3 * line.length)
                 if end and end.side == -present:
                     raise PickError(
-                        f"{message}: piece {part.number} ends {end.gap:.4g} m away from the fault, and can be extended "
-                        f"by a fifth of its length at most, {EXTENSION * part.line.length:.4g} m; draw it closer"
+                        f"{message}: piece {part.number} ends {end.gap:.4g}{self.unit} away from the fault, and can be "
+                        f"extended by a fifth of its length at most, {EXTENSION * part.line.length:.4g}{self.unit}; draw "
+                        "it closer"
                     )
         raise PickError(f"{message}; draw a piece there, or leave one of the two out")
 
@@ -273,7 +277,8 @@ class Drawing:
             return "give a horizon with a piece on either side"
         distance, horizon, number = min(distances)
         return (
-            f"the nearest is piece {number} of horizon {horizon!r}, {distance:.4g} m away: draw a piece on either side"
+            f"the nearest is piece {number} of horizon {horizon!r}, {distance:.4g}{self.unit} away: draw a piece on either "
+            "side"
         )
 
 
@@ -281,7 +286,7 @@ def _cutoff_points(fault, horizon):
     line = LineString(fault.points)
     found = parts([LineString(piece) for piece in horizon.pieces], [line])
     where = lambda point: f"x={point[0]:.6g}, z={point[1]:.6g}"  # noqa: E731
-    (pair,) = Drawing({fault.name: line}, {horizon.name: found}, where).cutoffs()
+    (pair,) = Drawing({fault.name: line}, {horizon.name: found}, where, unit="").cutoffs()
     return tuple(np.array(found[index].ends[place].point) for index, place in (pair.hanging_wall, pair.footwall))
 
 

@@ -36,7 +36,7 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     began = time.perf_counter()
     lines = _inside(joined(pieces, ground.spacing), ground, name)
     mesh = ground.mesh(lines)
-    bed = np.concatenate([edges_along(mesh, line) for line in lines])
+    bed = np.concatenate([edges_along(mesh, line, ground.spacing) for line in lines])
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
     level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
     free = np.ones(len(mesh.vertices), bool)

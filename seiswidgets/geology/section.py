@@ -151,7 +151,7 @@ def _checked_number(name, value):
 def _checked_amplitude(amplitude):
     try:
         array = np.array(amplitude)
-        array = array if array.dtype in (np.float32, np.float64) else array.astype(np.float64)
+        array = array if array.dtype in (np.float32, np.float64) else array.astype(np.float64, casting="same_kind")
     except (TypeError, ValueError):
         raise SectionError("amplitudes must be an array of real numbers, of shape (samples, traces)") from None
     if array.ndim != 2:

@@ -113,7 +113,7 @@ def _blocks(ground, faults, horizons):
     whole = ground.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
     edges = {name: _inner_edges(whole, line, name, ground) for name, line in lines.items()}
     cut = whole.cut(np.concatenate(list(edges.values())))
-    beds = {name: [cut.sides(edges_along(whole, line))[0] for line in bed] for name, bed in beds.items()}
+    beds = {name: [cut.sides(edges_along(whole, line, ground.spacing))[0] for line in bed] for name, bed in beds.items()}
     sides = {name: cut.sides(along) for name, along in edges.items()}
     return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds)
 
@@ -127,7 +127,7 @@ def _meshed_line(name, line, drawing, ground):
 
 
 def _inner_edges(mesh, line, name, ground):
-    along = edges_along(mesh, line)
+    along = edges_along(mesh, line, ground.spacing)
     border = {tuple(sorted(edge)) for edge in mesh.boundary.tolist()}
     inner = np.array([tuple(sorted(edge)) not in border for edge in along.tolist()], bool)
     if not inner.any():

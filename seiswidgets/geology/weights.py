@@ -1,6 +1,7 @@
 """The weights of the energy's terms."""
 
 from dataclasses import dataclass, fields
+from numbers import Real
 
 import numpy as np
 
@@ -37,11 +38,7 @@ class Weights:
     def __post_init__(self):
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         for name, value in values.items():
-            try:
-                good = np.isfinite(value) and value >= 0
-            except TypeError:
-                good = False
-            if not good:
+            if not (isinstance(value, Real) and np.isfinite(value) and value >= 0):
                 raise SettingError(f"weight {name} must be a number of 0 or more, but is {value!r}")
         if not any(values.values()):
             raise SettingError("all weights are 0, so that nothing would be asked for; set at least one above 0")

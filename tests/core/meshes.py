@@ -28,7 +28,7 @@ def chain(vertices):
 def cut_along(line, *others, spacing=100.0):
     """The box meshed and cut along a line: the cut, and both copies of the line's edges."""
     whole = triangulate(BOX, [line, *others], spacing)
-    edges = edges_along(whole, line)
+    edges = edges_along(whole, line, spacing)
     cut = whole.cut(edges)
     return cut, cut.sides(edges)
 

@@ -21,7 +21,7 @@ def shape_terms(mesh):
 def whole(line, spacing=70.0):
     """The box with a horizon in it: its mesh, and the terms that make the horizon level."""
     mesh = triangulate(BOX, [line], spacing)
-    horizon = np.unique(edges_along(mesh, line))
+    horizon = np.unique(edges_along(mesh, line, spacing))
     terms = [*shape_terms(mesh), Level(horizon, mesh.vertices[horizon, 1].mean(), len(mesh.vertices), 10.0)]
     return mesh, terms, horizon
 

@@ -19,7 +19,7 @@ def mesh():
 
 @pytest.fixture(scope="module")
 def cut(mesh):
-    return mesh.cut(edges_along(mesh, FAULT)).mesh
+    return mesh.cut(edges_along(mesh, FAULT, 4.0)).mesh
 
 
 def bent(vertices, amount=1.0):
@@ -141,7 +141,7 @@ def test_vertices_are_carried_to_their_targets(mesh):
 
 
 def test_a_known_triangle_carries_a_point_of_the_fault_with_its_own_side(mesh):
-    edges = edges_along(mesh, FAULT)
+    edges = edges_along(mesh, FAULT, 4.0)
     cut = mesh.cut(edges)
     one, other = cut.sides(edges)
     target = cut.mesh.vertices.copy()

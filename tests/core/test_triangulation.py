@@ -73,7 +73,7 @@ def test_conforms_to_every_line(name, spacing):
     mesh = triangulate(BOX, LINES[name], spacing)
     for line in LINES[name]:
         inside = shapely.intersection(line, BOX)
-        edges = edges_along(mesh, line)
+        edges = edges_along(mesh, line, spacing)
         assert lengths(mesh, edges).sum() == pytest.approx(inside.length, rel=1e-6)
         np.testing.assert_array_equal(edges[1:, 0], edges[:-1, 1])  # one after the other
         ends = shapely.get_coordinates(inside)[[0, -1]]
@@ -88,7 +88,7 @@ def test_crossings_are_vertices():
 
 def test_a_line_off_the_mesh_has_no_edges():
     mesh = triangulate(BOX, [PLANAR], 100.0)
-    assert edges_along(mesh, shapely.LineString([(1500, 0), (1600, 600)])).shape == (0, 2)
+    assert edges_along(mesh, shapely.LineString([(1500, 0), (1600, 600)]), 100.0).shape == (0, 2)
 
 
 @pytest.mark.parametrize("name", ["box", "shifted", "hole", "two parts"])
@@ -145,5 +145,6 @@ def test_any_drawing_makes_a_mesh_that_conforms_to_it(lines):
     assert mesh.areas.sum() == pytest.approx(BOX.area, rel=1e-6)
     for line in lines:
         inside = shapely.union_all(shapely.intersection(line, BOX))  # stretches that were drawn twice count once
-        edges = np.unique(np.sort(edges_along(mesh, line), axis=1), axis=0)
-        assert lengths(mesh, edges).sum() == pytest.approx(inside.length, rel=1e-4, abs=1e-2)
+        edges = np.unique(np.sort(edges_along(mesh, line, 120.0), axis=1), axis=0)
+        # what lies within a tenth of a metre becomes one, and ends are drawn on to the border over 12 m
+        assert lengths(mesh, edges).sum() == pytest.approx(inside.length, rel=1e-3, abs=5.0)

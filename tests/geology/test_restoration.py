@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from tests.geology.answers import block_errors, largest_throw
+from tests.geology.answers import largest_throw
 
 CASES = {
     "faulted fold": sw.synthetic.faulted_fold,
@@ -226,29 +226,42 @@ def test_an_unfinished_solution_says_so(fold):
 
 
 def test_contradicting_horizons_are_named():
+    """Two horizons that have changed places across a fault cannot both match: no rock can do that."""
     case = sw.synthetic.planar_fault()
     picks = case.interpretation
-    wrong = sw.Horizon(picks.horizons[1].pieces[0], picks.horizons[1].pieces[1] + (0, 120), name="wrong")
-    stage = sw.Restoration(case.section).unfault(picks.faults, [picks.horizons[0], wrong, picks.horizons[2]]).stages[0]
-    assert any("wrong" in text and "apart" in text for text in stage.report.unmet)
+    (left, right), (lower_left, lower_right) = (horizon.pieces for horizon in picks.horizons[:2])
+    crossed = [sw.Horizon(left, lower_right, name="A"), sw.Horizon(lower_left, right, name="B")]
+    stage = sw.Restoration(case.section, spacing=100).unfault(picks.faults, crossed).stages[0]
     assert (stage.area_ratio > 0).all()
+    assert any("A at fault F1" in text and "apart" in text for text in stage.report.unmet)
+    assert "gave way" in str(stage.report)
 
 
 def test_the_fixed_point_is_there_for_comparison():
-    """It is far from the answer after many more iterations than Gauss-Newton takes to reach it."""
-    case = sw.synthetic.listric_fault(turn=0.05)
+    """It is still off after a thousand iterations where Gauss-Newton is exact after a few (a tilted section)."""
+    case = sw.synthetic.tilt(dip=5)
+    errors = {}
+    for solver in ("gauss-newton", "fixed-point"):
+        stage = (
+            sw.Restoration(case.section, spacing=120).flatten(case.interpretation.horizons[1], solver=solver).stages[0]
+        )
+        off = stage.vertices - case.to_restored(stage.mesh.vertices)
+        errors[solver] = np.abs(off - off.mean(axis=0)).max()
+        assert stage.report.solver == solver
+    assert stage.report.iterations == 1000
+    assert not stage.report.converged
+    assert errors["gauss-newton"] < 1e-3
+    assert 0.1 < errors["fixed-point"] < 100
+
+
+def test_a_solution_that_turns_triangles_over_is_refused():
+    """The fixed point flips triangles where a block has to slide along a round fault."""
+    case = sw.synthetic.listric_fault()
     picks = case.interpretation
     start = sw.Restoration(case.section, spacing=150)
-    errors = {}
-    for solver, iterations in (("gauss-newton", None), ("fixed-point", 300)):
-        stage = start.unfault(
-            picks.faults, picks.horizons, fixed=case.fixed, solver=solver, max_iterations=iterations
-        ).stages[0]
-        found, block = block_errors(stage, case.to_unfaulted, case.block)
-        errors[solver] = found[block > 0].max() / largest_throw(stage)
-        assert stage.report.solver == solver
-    assert errors["gauss-newton"] < 2e-3
-    assert 0.05 < errors["fixed-point"] < 1
+    with pytest.raises(sw.FlippedError, match=r"turned \d+ of \d+ triangles over.* near x=.* m, z=") as refusal:
+        start.unfault(picks.faults, picks.horizons, fixed=case.fixed, solver="fixed-point", max_iterations=300)
+    assert refusal.value.count > 0
 
 
 def test_the_default_mesh_has_two_to_three_thousand_vertices(answer):
