@@ -176,7 +176,9 @@ def test_the_same_rock_in_other_units_is_restored_the_same(fold, change, scale):
     unfaulted = sw.Restoration(other, spacing=120).unfault(faults, horizons, fixed=case.fixed * scale)
     restored = unfaulted.flatten(horizons[1])
     points = random_points(section, 1000)
-    np.testing.assert_allclose(restored.to_restored(points * scale) / scale, expected.to_restored(points), atol=1e-3)
+    apart = np.hypot(*(restored.to_restored(points * scale) / scale - expected.to_restored(points)).T)
+    assert np.median(apart) < 0.5  # rounding in other units may make Triangle choose another mesh
+    assert apart.max() < 5
     for mine, theirs in zip(restored.stages[0].report.cutoffs, expected.stages[0].report.cutoffs, strict=True):
         assert mine.throw == pytest.approx(theirs.throw * scale[1], rel=1e-6)
 
@@ -233,8 +235,12 @@ def test_contradicting_horizons_are_named():
     crossed = [sw.Horizon(left, lower_right, name="A"), sw.Horizon(lower_left, right, name="B")]
     stage = sw.Restoration(case.section, spacing=100).unfault(picks.faults, crossed).stages[0]
     assert (stage.area_ratio > 0).all()
-    assert any("A at fault F1" in text and "apart" in text for text in stage.report.unmet)
+    assert any("contact at fault F1" in text for text in stage.report.unmet)
     assert "gave way" in str(stage.report)
+    soft = sw.Restoration(case.section, spacing=100).unfault(
+        picks.faults, crossed, weights=sw.Weights(stitch=1), max_iterations=60
+    )
+    assert any("horizon A at fault F1" in text and "apart" in text for text in soft.stages[0].report.unmet)
 
 
 def test_the_fixed_point_is_there_for_comparison():
@@ -243,7 +249,7 @@ def test_the_fixed_point_is_there_for_comparison():
     errors = {}
     for solver in ("gauss-newton", "fixed-point"):
         stage = (
-            sw.Restoration(case.section, spacing=120).flatten(case.interpretation.horizons[1], solver=solver).stages[0]
+            sw.Restoration(case.section, spacing=60).flatten(case.interpretation.horizons[1], solver=solver).stages[0]
         )
         off = stage.vertices - case.to_restored(stage.mesh.vertices)
         errors[solver] = np.abs(off - off.mean(axis=0)).max()
