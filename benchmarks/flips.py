@@ -9,6 +9,7 @@ import os
 import numpy as np
 
 import seiswidgets as sw
+from seiswidgets.core.cholesky import NotPositiveDefinite
 from seiswidgets.core.mesh import triangle_areas
 from tests.cases import SPACING, random_case
 
@@ -39,8 +40,8 @@ def restored(seed):
     ):
         try:
             after = solve(before)
-        except sw.SeiswidgetsError as error:
-            stages.append({"seed": seed, "state": f"{kind}: {type(error).__name__}: {error}"[:58]})
+        except Exception as error:  # noqa: BLE001 (whatever comes is a result)
+            stages.append({"seed": seed, "state": f"{kind}: {type(error).__name__}: {error}"[:56]})
             break
         report = after.stages[-1].report
         state = ("settled" if report.converged else "not settled") + (
@@ -64,4 +65,6 @@ def refused(solve, before):
         solve(before, solver="fixed-point", max_iterations=FIXED_POINT_ITERATIONS)
     except sw.FlippedError as error:
         return error.count
+    except NotPositiveDefinite:
+        pass  # a part of the rock does not reach the horizon, and nothing in the paper's energy holds it
     return 0

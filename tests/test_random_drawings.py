@@ -23,8 +23,8 @@ TINY = st.sampled_from([0.0, 0.0, 1e-12, -1e-12, 1e-9, 1e-6, -1e-6, 1e-4, -1e-4,
 def sections(draw):
     """Sections in depth or time, up to five times as wide as high or as high as wide in rock, with dx / dz of 0.1 to 100."""
     proportion, aspect = draw(st.sampled_from([0.2, 0.5, 1, 2, 5])), draw(st.sampled_from([0.1, 0.5, 1, 5, 100]))
-    nx = max(3, round(proportion * draw(st.sampled_from([10, 30, 60])) / aspect))
-    nz = max(3, round(aspect * nx / proportion))
+    nx = max(6, round(proportion * draw(st.sampled_from([10, 30, 60])) / aspect))
+    nz = max(6, round(aspect * nx / proportion))
     dz, *origin = draw(st.sampled_from([(10.0, 0.0, 0.0), (4.0, 6e5, -300.0), (0.001, 0.0, 0.0)]))
     time = draw(st.sampled_from([{}, {"z_unit": "ms", "velocity": 2000.0}]))
     return sw.Section(np.ones((nz, nx), np.float32), aspect * dz, dz, *origin, **time)

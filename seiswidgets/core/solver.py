@@ -132,7 +132,7 @@ class Caution:
 
 
 def _descent(equations, terms, vertices, triangles, caution, tolerance, curved):
-    """The vertices after a step that lowers the energy, None if there is none, and whether it was an undamped full step.
+    """The vertices after a step that lowers the energy, None if there is none; and whether it was full and undamped.
 
     A step within the tolerance is taken as it is: rounding would hide what it gains.
     """

@@ -6,6 +6,7 @@ short is extended along its last stretch, by a fifth of its length at most; one 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -102,7 +103,7 @@ def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1
     inner = [(way, fault) for way, fault in crossings if 1e-9 * length < way < (1 - 1e-9) * length]
     stops = [(0.0, None), *inner, (length, None)]
     found = []
-    for (start, first), (stop, last) in zip(stops[:-1], stops[1:], strict=True):
+    for (start, first), (stop, last) in pairwise(stops):
         if stop - start <= 1e-9 * length:
             continue
         line = substring(piece, start, stop)
@@ -163,18 +164,18 @@ def _end(line, place, number, fault, point, gap=0.0):
 
 
 def hanging_side(fault: LineString, place, point) -> int:
-    """1 if a point lies above a fault, in its hanging wall, as seen from a place on it; -1 if in its footwall.
+    """1 if a point lies in the hanging wall of a fault, as seen from a place on it; -1 if in its footwall.
 
-    Where the fault is upright its right side counts as the hanging wall.
+    The hanging wall is the side that lies above the fault as a whole: along a fault that is overturned in part it
+    stays the same side. Where the fault is upright, that is its right side.
     """
     way, reach = fault.project(Point(place)), 1e-3 * fault.length
     before, after = (np.array(fault.interpolate(max(0.0, way + step)).coords[0]) for step in (-reach, reach))
-    along = after - before
-    if along[1] < 0 or (along[1] == 0 and along[0] < 0):
-        along = -along  # down the dip
+    along, whole = after - before, np.subtract(fault.coords[-1], fault.coords[0])
     across = along[0] * (point[1] - place[1]) - along[1] * (point[0] - place[0])
-    overhang = -across if along[0] >= 0 else across  # above a fault that dips to the right lies its right side
-    return 1 if overhang > 0 else -1
+    drawn_down = whole[1] > 0 or (whole[1] == 0 and whole[0] > 0)
+    dips_right = whole[0] * (1 if drawn_down else -1) >= 0
+    return 1 if (across < 0) == (drawn_down == dips_right) else -1
 
 
 def _points(geometry):

@@ -11,6 +11,7 @@ from seiswidgets.geology.ground import Ground
 MERGED = 0.01  # of the mesh spacing: points closer than this become one
 REACH = 0.25  # of the mesh spacing: a fault that ends so close to the border or to another fault meets it
 EDGES = 8  # at least, along each fault
+SHARPEST = np.radians(10)  # between two stretches of a fault: less makes slivers of rock
 
 
 def merged(points, spacing) -> np.ndarray:
@@ -36,7 +37,7 @@ def fault_lines(faults: dict, ground: Ground) -> dict:
     Raises
     ------
     PickError
-        If a fault is no longer than the spacing, or two lie on top of each other.
+        If a fault is no longer than the spacing or turns back on itself, or two lie on top of each other.
     """
     lines = {name: _line(name, points, ground) for name, points in faults.items()}
     _check_apart(lines, ground)
@@ -55,7 +56,18 @@ def _line(name, points, ground):
             f"fault {name!r} near {ground.where(points[0])} is {length:.4g} m long, no longer than the mesh spacing of "
             f"{ground.spacing:.4g} m; choose a finer spacing, or leave it out"
         )
+    _check_onward(name, points, ground)
     return LineString(points)
+
+
+def _check_onward(name, points, ground):
+    steps = np.diff(points, axis=0)
+    directions = steps / np.hypot(*steps.T)[:, None]
+    back = np.sum(directions[1:] * directions[:-1], axis=1) < -np.cos(SHARPEST)
+    if back.any():
+        raise PickError(
+            f"fault {name!r} turns back on itself near {ground.where(points[1 + np.argmax(back)])}; leave that point out"
+        )
 
 
 def _check_apart(lines, ground):

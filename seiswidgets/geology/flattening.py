@@ -84,14 +84,14 @@ def _inside(lines, ground, name):
     lines = [ground.simplified(LineString(merged(shapely.get_coordinates(line), ground.spacing))) for line in lines]
     if not any(line.intersection(ground.outline).length > ground.spacing for line in lines):
         raise PickError(
-            f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or choose a "
-            "finer spacing"
+            f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or choose "
+            "a finer spacing"
         )
     return lines
 
 
 def joined(pieces, spacing) -> list[LineString]:
-    """Pieces of a horizon with ends that nearly meet, as across a fault that has been restored, brought to one place."""
+    """Pieces of a horizon whose ends nearly meet, as across a restored fault, brought together there."""
     points = [shapely.get_coordinates(piece).copy() for piece in pieces]
     ends = [(piece, place) for piece in range(len(points)) for place in (0, -1)]
     pairs = sorted(

@@ -37,8 +37,8 @@ def likeness(restoration: Restoration, fault: Fault, gap: int = 2, width: int = 
     both = np.isfinite(left) & np.isfinite(right)
     if both.sum() < LEAST_SAMPLES:
         raise PickError(
-            f"only {both.sum()} samples beside fault {fault.name!r} have data on both sides; at least {LEAST_SAMPLES} are "
-            "needed to compare them: take a smaller gap or width, or a longer fault"
+            f"only {both.sum()} samples beside fault {fault.name!r} have data on both sides; at least {LEAST_SAMPLES} "
+            "are needed to compare them: take a smaller gap or width, or a longer fault"
         )
     left, right = left[both] - left[both].mean(), right[both] - right[both].mean()
     return float(left @ right / max(np.sqrt((left @ left) * (right @ right)), np.finfo(float).tiny))

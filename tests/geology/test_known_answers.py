@@ -53,7 +53,9 @@ def test_a_held_block_does_not_move_at_all(case):
 @pytest.mark.parametrize("vertices", [600, 5000, 20000])
 def test_a_tilted_section_turns_back(dip, vertices):
     case = sw.synthetic.tilt(dip=dip)
-    restored = sw.Restoration(case.section, spacing_for(case.section, vertices)).flatten(case.interpretation.horizons[1])
+    restored = sw.Restoration(case.section, spacing_for(case.section, vertices)).flatten(
+        case.interpretation.horizons[1]
+    )
     stage = restored.stages[-1]
     off = stage.vertices - case.to_restored(stage.mesh.vertices)
     errors = np.hypot(*(off - off.mean(axis=0)).T)  # how far the whole moves sideways, and its datum, are a choice

@@ -97,7 +97,7 @@ def test_samples_stay_on_the_lattice_and_nothing_is_cropped(answer):
     assert (section.dx, section.dz) == (original.dx, original.dz)
     for offset, step in ((section.x0 - original.x0, section.dx), (section.z0 - original.z0, section.dz)):
         assert offset / step == pytest.approx(round(offset / step), abs=1e-9)
-    x_min, x_max, z_min, z_max = section.extent
+    x_min, _, _, z_max = section.extent
     low, high = restored.stages[-1].vertices.min(axis=0), restored.stages[-1].vertices.max(axis=0)
     assert low[0] - section.dx < x_min < low[0] + section.dx
     assert high[1] - section.dz < z_max < high[1] + section.dz
@@ -112,7 +112,7 @@ def test_without_a_stage_everything_stays():
 
 
 def test_blocks_are_welded(answer):
-    """Rock covers the seam: places just left and right of a restored fault come from its two walls, none from nowhere."""
+    """Rock covers the seam: places on a restored fault come from somewhere."""
     case, restored = answer
     unfaulted = replace(restored, stages=restored.stages[:1])
     for fault in case.interpretation.faults:
@@ -172,7 +172,9 @@ def test_the_same_rock_in_other_units_is_restored_the_same(fold, change, scale):
     other = replace(section, dx=section.dx * scale[0], dz=section.dz * scale[1], **change)
     picks = case.interpretation
     faults = [sw.Fault(fault.points * scale) for fault in picks.faults]
-    horizons = [sw.Horizon(*(piece * scale for piece in horizon.pieces), name=horizon.name) for horizon in picks.horizons]
+    horizons = [
+        sw.Horizon(*(piece * scale for piece in horizon.pieces), name=horizon.name) for horizon in picks.horizons
+    ]
     unfaulted = sw.Restoration(other, spacing=120).unfault(faults, horizons, fixed=case.fixed * scale)
     restored = unfaulted.flatten(horizons[1])
     points = random_points(section, 1000)
