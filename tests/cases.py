@@ -30,8 +30,12 @@ def random_case(seed):
     count = rng.integers(1, 5)
     while True:
         slips = sorted((_random_slip(rng) for _ in range(rng.integers(1, count + 1))), key=lambda slip: not slip.blind)
-        faults, beds = _slipped(slips, _folded_beds(rng))
-        if len(faults) == count and _well_apart(faults) and (horizons := _picked(faults, beds)):
+        beds = _folded_beds(rng)
+        faults, _ = _slipped(slips, [])
+        if len(faults) != count or not _well_apart(faults):
+            continue
+        faults, beds = _slipped(slips, beds)
+        if horizons := _picked(faults, beds):
             fixed = _held(rng, faults)
             faults = [sw.Fault(line.coords, name=f"F{number}") for number, line in enumerate(faults, 1)]
             return SECTION, faults, horizons, fixed

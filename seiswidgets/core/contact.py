@@ -8,6 +8,7 @@ import shapely
 
 from seiswidgets.core.terms import MOVING, coordinates, sparse_rows
 
+STAY = 0.1  # of a segment's length
 CORNER = np.radians(10)  # a drawn line that turns by more has a corner there; by less, it samples a smooth curve
 
 
@@ -73,8 +74,9 @@ class Contact:
         The same along each segment, as coefficients of 1, s and s^2.
     count : int
         How many vertices the mesh has.
-    partner : array, shape (p,)
-        The segment that each point is held to, -1 for none; chosen by ``at``.
+    partner, former, stay : arrays, shape (p,)
+        The segment that each point is held to, -1 for none, the one before, and how far beyond its segment's end a
+        point is still held to it, in lengths of it; chosen by ``at``.
     """
 
     points: np.ndarray
@@ -85,6 +87,8 @@ class Contact:
     weight: float = 1.0
     name: str = "contact"
     partner: np.ndarray | None = None
+    former: np.ndarray | None = None
+    stay: np.ndarray | None = None
     pattern = MOVING
 
     @cached_property
@@ -96,8 +100,8 @@ class Contact:
     def at(self, vertices) -> "Contact":
         """The term with each point held to the segment that is nearest to it now.
 
-        A partner is kept while the point's foot is on it, or a tenth of its length beyond: else two segments of a
-        bent fault could take turns for ever.
+        A partner is kept while the point's foot is on it or a little beyond, and the farther beyond the more often the
+        point has come back to a partner it had just left: else two segments of a bent fault could take turns for ever.
         """
         along, _, _, _ = self._feet(vertices, self.points[:, None], self.segments[None])
         clipped = np.clip(along, 0, 1)
@@ -105,12 +109,23 @@ class Contact:
         away = vertices[self.points][:, None] - start - clipped[..., None] * (stop - start)
         nearest = np.argmin(np.sum(away**2, axis=2), axis=1)
         row = np.arange(len(self.points))
-        if self.partner is not None:
-            kept = (self.partner >= 0) & (np.abs(along - clipped)[row, self.partner] < 0.1)
-            nearest = np.where(kept, self.partner, nearest)
-        along, ends = along[row, nearest], self._open[nearest]
-        silent = (ends[:, 0] & (along < -1e-9)) | (ends[:, 1] & (along > 1 + 1e-9))
-        return replace(self, partner=np.where(silent, -1, nearest))
+        if self.partner is None:
+            return self._held_to(self._unless_beyond(nearest, along, STAY))
+        kept = (self.partner >= 0) & (np.abs(along - clipped)[row, self.partner] < self.stay)
+        return self._held_to(self._unless_beyond(np.where(kept, self.partner, nearest), along, self.stay))
+
+    def _unless_beyond(self, nearest, along, stay):
+        """Partners, -1 for points that lie beyond an end of the polyline."""
+        along, ends = along[np.arange(len(nearest)), nearest], self._open[nearest]
+        reach = stay - STAY + 1e-9
+        return np.where((ends[:, 0] & (along < -reach)) | (ends[:, 1] & (along > 1 + reach)), -1, nearest)
+
+    def _held_to(self, partner):
+        if self.partner is None:
+            return replace(self, partner=partner, former=partner, stay=np.full(len(partner), STAY))
+        left = partner != self.partner
+        stay = np.where(left & (partner == self.former), 2 * self.stay, self.stay)
+        return replace(self, partner=partner, former=np.where(left, self.partner, self.former), stay=stay)
 
     def _feet(self, vertices, points, segments):
         """Foot of each point on its segment's line (0 and 1 are its ends), signed distance, normal, and segment."""

@@ -140,8 +140,8 @@ def _raise_crowded(corners):
     triangle, corner = np.unravel_index(np.argmin(sides), sides.shape)
     x, z = corners[triangle, corner]
     raise SettingError(
-        f"two lines lie so close together near x={x:.6g} m, z={z:.6g} m (of rock), or meet at so small an angle, that the "
-        f"mesh would need more than {TOO_MANY:,} vertices, the limit; part them, or leave one of them out"
+        f"two lines lie so close together near x={x:.6g} m, z={z:.6g} m (of rock), or meet at so small an angle, that "
+        f"the mesh would need more than {TOO_MANY:,} vertices, the limit; part them, or leave one of them out"
     )
 
 

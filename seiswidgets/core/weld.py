@@ -121,7 +121,8 @@ def _split(mesh, vertices, splits):
         inner = inner if forward else inner[::-1]
         one, two = (first, second) if forward else (second, first)
         fan, places, at_rest = _fan(mesh, vertices, half_edge, one, two, inner, count)
-        if triangle_areas(np.vstack([vertices, *moved[1:], places]), fan).min() <= 0:
+        at = (np.vstack([*rest, at_rest]), np.vstack([*moved, places]))
+        if min(triangle_areas(shape, fan).min() for shape in at) <= 1e-9 * mesh.areas[half_edge // 3]:
             continue
         gone.add(half_edge // 3)
         fans.append(fan)

@@ -263,8 +263,8 @@ class Drawing:
                 if end and end.side == -present:
                     raise PickError(
                         f"{message}: piece {part.number} ends {end.gap:.4g}{self.unit} away from the fault, and can be "
-                        f"extended by a fifth of its length at most, {EXTENSION * part.line.length:.4g}{self.unit}; draw "
-                        "it closer"
+                        f"extended by a fifth of its length at most, {EXTENSION * part.line.length:.4g}{self.unit}; "
+                        "draw it closer"
                     )
         raise PickError(f"{message}; draw a piece there, or leave one of the two out")
 
@@ -278,8 +278,8 @@ class Drawing:
             return "give a horizon with a piece on either side"
         distance, horizon, number = min(distances)
         return (
-            f"the nearest is piece {number} of horizon {horizon!r}, {distance:.4g}{self.unit} away: draw a piece on either "
-            "side"
+            f"the nearest is piece {number} of horizon {horizon!r}, {distance:.4g}{self.unit} away: "
+            "draw a piece on either side"
         )
 
 

@@ -65,9 +65,8 @@ def _check_onward(name, points, ground):
     directions = steps / np.hypot(*steps.T)[:, None]
     back = np.sum(directions[1:] * directions[:-1], axis=1) < -np.cos(SHARPEST)
     if back.any():
-        raise PickError(
-            f"fault {name!r} turns back on itself near {ground.where(points[1 + np.argmax(back)])}; leave that point out"
-        )
+        place = ground.where(points[1 + np.argmax(back)])
+        raise PickError(f"fault {name!r} turns back on itself near {place}; leave that point out")
 
 
 def _check_apart(lines, ground):

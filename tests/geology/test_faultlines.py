@@ -103,7 +103,7 @@ def test_faults_a_little_longer_than_the_spacing():
 @pytest.mark.parametrize("turned", [1, -1])
 def test_faults_that_turn_back(turned):
     spike = [(700, 0), (790, 450), (780, 395), (791, 455), (900, 1000)]
-    with pytest.raises(sw.PickError, match=r"fault 'F' turns back on itself near x=7[89]\d m, z=(450|395) m; leave that"):
+    with pytest.raises(sw.PickError, match=r"fault 'F' turns back on itself near x=7[89]\d m, z=(450|395) m; leave"):
         lines(F=spike[::turned])
 
 
