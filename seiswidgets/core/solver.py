@@ -14,6 +14,7 @@ from seiswidgets.errors import Cancelled
 LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the mean diagonal; the least only tames motions that cost nothing
 LEAST_BENDING = 0.1  # share of the second derivatives that is worth a try
 HALVINGS = 5
+ROUNDING = 1e-11  # of an energy: changes below this are noise
 SLOW = 0.8  # share of the energy left by a step: with more, much of the residual is there to stay
 
 
@@ -136,7 +137,7 @@ def _descent(equations, terms, vertices, triangles, caution, tolerance, curved):
 
     A step within the tolerance is taken as it is: rounding would hide what it gains.
     """
-    before = energy(terms, vertices)
+    allowed = energy(terms, vertices) * (1 + ROUNDING)
     while caution.damping <= MOST_DAMPING:
         try:
             step = equations.step(caution.damping, caution.bending if curved else None)
@@ -148,7 +149,7 @@ def _descent(equations, terms, vertices, triangles, caution, tolerance, curved):
         settled = undamped and length == 1 and _farthest(step) <= tolerance
         for _ in range(HALVINGS):
             moved = vertices + length * step
-            if settled or (triangle_areas(moved, triangles).min() > 0 and energy(terms, moved) < before):
+            if settled or (triangle_areas(moved, triangles).min() > 0 and energy(terms, moved) <= allowed):
                 caution.less()
                 return moved, undamped and length == 1
             length /= 2
@@ -189,6 +190,8 @@ def fixed_point(terms, start, free, tolerance, max_iterations=1000, progress=Non
 def _normal_factor(matrix):
     lower = tril(matrix.T @ matrix, format="csc")
     lower.sort_indices()
+    diagonal = lower.diagonal()
+    lower.setdiag(diagonal + 1e-12 * diagonal.max(initial=1))  # for parts that nothing holds
     factor = Cholesky(lower.indices, lower.indptr)
     factor.factorise(lower.data)
     return factor

@@ -6,21 +6,18 @@ J. R. Shewchuk, Triangle: engineering a 2D quality mesh generator and Delaunay t
 import numpy as np
 import shapely
 import triangle
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
+from seiswidgets.core.linework import MERGED, graph
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.errors import SettingError
 
 LEAST_ANGLE = 30  # degrees; Triangle is sure to end up to about 33
 LARGEST_AREA = 0.7  # of the squared spacing; the mean then comes close to the equilateral triangle's 0.43
-SNAP = 2.0**-30  # of the outline's width and height; what lies closer becomes one place
-MERGED = 1e-3  # of the spacing: places that lie closer become one
-REACH = 0.1  # of the spacing: a line that ends so close to the outline meets it
 DENSITY = 1.15  # vertices in a square whose side is the spacing
 TOO_MANY = 250_000
 TOO_FEW = 30
+CROWDED = 20  # times the vertices that the area alone would need, and some for small meshes: no more are made
+SOME = 5_000
 
 
 def triangulate(outline, lines, spacing: float) -> Mesh:
@@ -41,15 +38,16 @@ def triangulate(outline, lines, spacing: float) -> Mesh:
     SettingError
         If so many vertices would be needed, or so few come out, that the mesh is of no use.
     """
-    _check_count(outline, spacing)
-    lines = [_reaching(line, outline.boundary, REACH * spacing) for line in lines]
-    vertices, segments = _merged(*_graph(outline, shapely.segmentize(lines, spacing)), outline, MERGED * spacing)
+    most = min(CROWDED * expected_vertices(outline, spacing) + SOME, TOO_MANY)
+    vertices, segments = graph(outline, lines, spacing)
     origin = np.array(outline.bounds[:2])
     drawing = {"vertices": (vertices - origin) / spacing, "segments": segments}  # Triangle is at its best near 1
-    if holes := _holes(outline):
-        drawing["holes"] = (np.array(holes) - origin) / spacing
-    result = triangle.triangulate(drawing, f"pq{LEAST_ANGLE}a{LARGEST_AREA}S{TOO_MANY}")
-    return _mesh(result, origin, spacing)
+    result = triangle.triangulate(drawing, f"pq{LEAST_ANGLE}a{LARGEST_AREA}S{most}")
+    triangles = result.get("triangles", np.empty((0, 3), int))
+    places = result["vertices"] * spacing + origin
+    if len(places) >= most:
+        _raise_crowded(places[triangles], most)
+    return _mesh(places, _inside(triangles, places, outline), spacing)
 
 
 def triangulate_to(outline, lines, count: int) -> Mesh:
@@ -63,7 +61,8 @@ def triangulate_to(outline, lines, count: int) -> Mesh:
     return mesh
 
 
-def _check_count(outline, spacing):
+def expected_vertices(outline, spacing: float) -> int:
+    """How many vertices a mesh needs for the area alone; SettingError if they would be too many."""
     count = int(outline.area * DENSITY / spacing**2)
     if count > TOO_MANY:
         least = 1.01 * np.sqrt(outline.area * DENSITY / TOO_MANY)
@@ -71,77 +70,35 @@ def _check_count(outline, spacing):
             f"a mesh spacing of {spacing:g} m would make about {count:,} vertices; the limit is {TOO_MANY:,}: "
             f"choose at least {least:.4g} m"
         )
+    return count
 
 
-def _reaching(line, border, reach):
-    """A line whose ends are drawn on to a border that they nearly meet: what is left between would make slivers."""
-    points = shapely.get_coordinates(line)
-    for place in (0, -1):
-        end = shapely.Point(points[place])
-        if 0 < border.distance(end) < reach:
-            near = border.interpolate(border.project(end))
-            points = np.insert(points, 0 if place == 0 else len(points), near.coords[0], axis=0)
-    return shapely.LineString(points)
+def _inside(triangles, places, outline):
+    """The triangles that do not lie in a hole."""
+    if not any(len(part.interiors) for part in shapely.get_parts(outline)):
+        return triangles
+    shapely.prepare(outline)
+    return triangles[shapely.contains_xy(outline, places[triangles].mean(axis=1))]
 
 
-def _graph(outline, lines):
-    """All lines noded together: places, and segments between them.
-
-    Noding is done where the outline's bounding box is the unit square: a rectangle's border is then kept exactly.
-    """
-    low, high = np.reshape(outline.bounds, (2, 2))
-    parts = [outline.boundary, *shapely.intersection(lines, outline)]
-    unit = shapely.transform(parts, lambda points: (points - low) / (high - low))
-    noded = shapely.get_parts(shapely.union_all(unit, grid_size=SNAP))
-    places, line = shapely.get_coordinates(noded[shapely.get_type_id(noded) == 1], return_index=True)
-    vertices, index = np.unique(places, axis=0, return_inverse=True)
-    along = np.flatnonzero((line[1:] == line[:-1]) & (index[1:] != index[:-1]))
-    return low + vertices * (high - low), np.column_stack([index[along], index[along + 1]])
-
-
-def _merged(vertices, segments, outline, reach):
-    """A graph whose places lie apart: those closer than the reach become one, on the outline where one of them is."""
-    pairs = cKDTree(vertices).query_pairs(reach, output_type="ndarray")
-    if not len(pairs):
-        return vertices, segments
-    graph = coo_array((np.ones(len(pairs), bool), pairs.T), shape=(len(vertices),) * 2)
-    _, place = connected_components(graph, directed=False)
-    corners = shapely.multipoints(shapely.get_coordinates(outline))
-    points = shapely.points(vertices)
-    order = np.lexsort([shapely.distance(points, corners), np.round(shapely.distance(points, outline.boundary), 9)])
-    _, first = np.unique(place[order], return_index=True)
-    segments = np.sort(place[segments], axis=1)
-    return vertices[order[first]], np.unique(segments[segments[:, 0] != segments[:, 1]], axis=0)
-
-
-def _holes(outline):
-    rings = [ring for part in shapely.get_parts(outline) for ring in part.interiors]
-    return [shapely.Polygon(ring).representative_point().coords[0] for ring in rings]
-
-
-def _mesh(result, origin, spacing):
-    triangles = result.get("triangles", np.empty((0, 3), int))
-    if len(result["vertices"]) >= TOO_MANY:
-        _raise_crowded(result["vertices"][triangles] * spacing + origin)
+def _mesh(places, triangles, spacing):
     used, renumbered = np.unique(triangles, return_inverse=True)
     if len(used) < TOO_FEW:
         raise SettingError(
             f"a mesh spacing of {spacing:g} m makes only {len(used)} vertices; at least {TOO_FEW} are needed: choose less"
         )
-    vertices = result["vertices"][used] * spacing + origin
     triangles = renumbered.reshape(-1, 3)
-    inverted = triangle_areas(vertices, triangles) < 0
+    inverted = triangle_areas(places[used], triangles) < 0
     triangles[inverted] = triangles[inverted, ::-1]
-    return Mesh(vertices, triangles)
+    return Mesh(places[used], triangles)
 
 
-def _raise_crowded(corners):
+def _raise_crowded(corners, most):
     sides = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0))
-    triangle, corner = np.unravel_index(np.argmin(sides), sides.shape)
-    x, z = corners[triangle, corner]
+    x, z = corners[np.unravel_index(np.argmin(sides), sides.shape)]
     raise SettingError(
         f"two lines lie so close together near x={x:.6g} m, z={z:.6g} m (of rock), or meet at so small an angle, that "
-        f"the mesh would need more than {TOO_MANY:,} vertices, the limit; part them, or leave one of them out"
+        f"the mesh would need more than {most:,} vertices, the limit here; part them, or leave one of them out"
     )
 
 

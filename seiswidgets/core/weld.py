@@ -158,6 +158,17 @@ def outline(mesh: Mesh, vertices, closing: float):
     covered = shapely.union_all(faces[TriangleFinder(vertices, mesh.triangles)(inside) >= 0])
     style = {"join_style": "mitre", "mitre_limit": 10}
     closed = covered.buffer(closing, **style).buffer(-closing, **style)
+    covered = _without_specks(covered, (5 * closing) ** 2)
     gaps = shapely.get_parts(closed.difference(covered))
     gaps = gaps[shapely.area(gaps) > (0.1 * closing) ** 2]  # what is smaller is rounding
     return shapely.union_all([covered, *gaps], grid_size=grid).simplify(1e-5 * closing)
+
+
+def _without_specks(shape, area):
+    """A shape without the holes and the parts that are smaller than an area."""
+    parts = [
+        shapely.Polygon(part.exterior, [ring for ring in part.interiors if shapely.Polygon(ring).area > area])
+        for part in shapely.get_parts(shape)
+        if part.area > area
+    ]
+    return shapely.union_all(parts)

@@ -7,7 +7,7 @@ import numpy as np
 from shapely import LineString
 
 from seiswidgets.core.mesh import Mesh
-from seiswidgets.core.triangulation import DENSITY, triangulate, triangulate_to
+from seiswidgets.core.triangulation import DENSITY, expected_vertices, triangulate, triangulate_to
 from seiswidgets.geology.section import Section
 
 SIMPLIFIED = 0.01  # of the mesh spacing, at most
@@ -30,6 +30,10 @@ class Ground:
     outline: object
     section: Section
     asked: float | None
+
+    def __post_init__(self):
+        if self.asked:
+            expected_vertices(self.outline, self.asked)
 
     @cached_property
     def spacing(self) -> float:

@@ -55,6 +55,8 @@ class Report:
         Triangles turned over: always 0, since a stage that would turn any is refused.
     area_ratio : dict of int to float
         Percentiles, by area, of initial over final area; above 1 is compression.
+    overlap : float
+        Area of rock that lies on other rock after the step, in square metres; there the way back is not unique.
     cutoffs : tuple of CutOffReport
         Throw in the unit of z and heave in that of x, before; the misfit in metres, after.
     seams : tuple of SeamReport
@@ -78,6 +80,7 @@ class Report:
     energy: dict
     flipped: int
     area_ratio: dict
+    overlap: float = 0.0
     cutoffs: tuple = ()
     seams: tuple = ()
     beds: tuple = ()

@@ -9,8 +9,8 @@ import shapely
 from shapely import LineString
 
 from seiswidgets.core.resampling import resampled
-from seiswidgets.core.weld import outline
 from seiswidgets.errors import PickError, SettingError
+from seiswidgets.geology import asked
 from seiswidgets.geology.flattening import flattened, joined
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.picks import Fault, Horizon
@@ -19,8 +19,6 @@ from seiswidgets.geology.solving import GAUSS_NEWTON, Options
 from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.unfaulting import unfaulted
 from seiswidgets.geology.weights import Weights
-
-CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +64,7 @@ class Restoration:
                 f"a restoration starts from a seiswidgets.Section, but got a {type(self.original).__name__}"
             )
         if self.spacing is not None:
-            spacing = _number("spacing", self.spacing)
+            spacing = asked.number("spacing", self.spacing)
             if spacing <= 0:
                 raise SettingError(f"spacing must be above 0 m, but is {spacing:g}")
             object.__setattr__(self, "spacing", spacing)
@@ -117,12 +115,12 @@ class Restoration:
             If ``progress`` returned False.
         """
         options = Options(weights or Weights(), solver, max_iterations, progress, start)
-        faults, horizons = _several(faults, Fault, "fault"), _several(horizons, Horizon, "horizon")
+        faults, horizons = asked.picks(faults, Fault, "fault"), asked.picks(horizons, Horizon, "horizon")
         if not faults:
             raise PickError("there is no fault to unfault; give at least one")
         held = None if fixed is None else self._held(fixed)
-        fault_points = {name: self._fault(fault) for name, fault in _named(faults).items()}
-        pieces = {name: self._pieces(horizon) for name, horizon in _named(horizons).items()}
+        fault_points = {name: self._fault(fault) for name, fault in faults.items()}
+        pieces = {name: self._pieces(horizon) for name, horizon in horizons.items()}
         stage = unfaulted(self.ground, fault_points, pieces, held, options)
         return replace(self, stages=(*self.stages, stage))
 
@@ -153,9 +151,9 @@ class Restoration:
             As for ``unfault``.
         """
         options = Options(weights or Weights(), solver, max_iterations, progress, start)
-        (horizon,) = _several([horizon], Horizon, "horizon")
+        (horizon,) = asked.picks([horizon], Horizon, "horizon").values()
         if datum is not None:
-            datum = _number("datum", datum) * self.original.metres[1]
+            datum = asked.number("datum", datum) * self.original.metres[1]
         stage = flattened(self.ground, horizon.name, self._pieces(horizon), datum, options)
         return replace(self, stages=(*self.stages, stage))
 
@@ -166,19 +164,18 @@ class Restoration:
             x_min, x_max, z_min, z_max = self.original.extent
             corners = self.original.to_rock([(x_min, z_min), (x_max, z_max)])
             return Ground(shapely.box(*corners.ravel()), self.original, self.spacing)
-        last = self.stages[-1]
-        return Ground(outline(last.mesh, last.vertices, CLOSED * last.spacing), self.original, self.spacing)
+        return Ground(self.stages[-1].outline, self.original, self.spacing)
 
     def to_restored(self, points) -> np.ndarray:
         """Where points of the original section lie after all stages, NaN outside; in its units, shape (n, 2)."""
-        points = self.original.to_rock(_points(points))
+        points = self.original.to_rock(asked.points(points))
         for stage in self.stages:
             points = stage.map.forward(points)
         return self.original.from_rock(points)
 
     def to_original(self, points) -> np.ndarray:
         """Where points of the restored section lie in the original one, NaN outside; in its units, shape (n, 2)."""
-        points = self.original.to_rock(_points(points))
+        points = self.original.to_rock(asked.points(points))
         for stage in reversed(self.stages):
             points = stage.map.inverse(points)
         return self.original.from_rock(points)
@@ -214,8 +211,10 @@ class Restoration:
             / (section.dx, section.dz)
             for corner in (np.min, np.max)
         )
-        numbers = (np.arange(np.ceil(a - 1e-6), np.floor(b + 1e-6) + 1) for a, b in zip(low, high, strict=True))
-        x, z = numbers
+        first, last = np.ceil(low - 1e-6), np.floor(high + 1e-6)
+        thin = last <= first  # a section has two traces and two samples at least
+        first, last = np.where(thin, np.floor(low), first), np.where(thin, np.floor(low) + 1, last)
+        x, z = (np.arange(a, b + 1) for a, b in zip(first, last, strict=True))
         return section.x0 + section.dx * x, section.z0 + section.dz * z
 
     def carried(self, pick: Fault | Horizon) -> list[np.ndarray]:
@@ -224,7 +223,7 @@ class Restoration:
         return [self.original.from_rock(shapely.get_coordinates(line)) for line in lines]
 
     def _fault(self, fault):
-        lines = [LineString(self._checked(fault.points, f"fault {fault.name!r}"))]
+        lines = [LineString(asked.rock_points(self.original, fault.points, f"fault {fault.name!r}"))]
         for stage in self.stages:
             lines = [moved for line in lines for moved in stage.carried_fault(line)]
         if not lines:
@@ -235,7 +234,7 @@ class Restoration:
 
     def _pieces(self, horizon):
         lines = [
-            LineString(self._checked(piece, f"piece {number} of horizon {horizon.name!r}"))
+            LineString(asked.rock_points(self.original, piece, f"piece {number} of horizon {horizon.name!r}"))
             for number, piece in enumerate(horizon.pieces, 1)
         ]
         for stage in self.stages:
@@ -244,68 +243,14 @@ class Restoration:
 
     def _held(self, fixed):
         try:
-            point = _points(fixed).reshape(2)
+            point = asked.points(fixed).reshape(1, 2)
         except ValueError:
             raise PickError(f"fixed must be one point (x, z), but is {fixed!r}") from None
-        point = self._checked(point[None], "fixed")
+        point = asked.rock_points(self.original, point, "fixed")
         for stage in self.stages:
             point = stage.map.forward(point)
         return point[0]
 
-    def _checked(self, points, what):
-        """Points in metres of rock; what lies outside by no more than rounding is put on the border."""
-        section = self.original
-        x_min, x_max, z_min, z_max = section.extent
-        clipped = np.clip(points, (x_min, z_min), (x_max, z_max))
-        away = np.abs(points - clipped) / (section.dx, section.dz)
-        if not (away <= 1e-6).all():
-            bad = int(np.argmax(~(away <= 1e-6).all(axis=1)))
-            place = f"({points[bad, 0]:.6g} {section.x_unit}, {points[bad, 1]:.6g} {section.z_unit})"
-            which = "fixed" if what == "fixed" else f"point {bad + 1} of {what}"
-            raise PickError(
-                f"{which} lies outside the section, at {place}; the section reaches from x={x_min:g} to {x_max:g} "
-                f"{section.x_unit} and from z={z_min:g} to {z_max:g} {section.z_unit}"
-            )
-        return section.to_rock(clipped)
-
     def __repr__(self):
         stages = ", ".join(stage.kind for stage in self.stages) or "no stage yet"
         return f"<Restoration of {self.original!r}: {stages}>"
-
-
-def _number(name, value):
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = np.nan
-    if not np.isfinite(number):
-        raise SettingError(f"{name} must be a finite number, but is {value!r}")
-    return number
-
-
-def _points(points):
-    points = np.asarray(points, float)
-    if points.shape[-1:] != (2,):
-        raise ValueError(f"points must be rows (x, z), of shape (n, 2), but have shape {points.shape}")
-    return points.reshape(-1, 2)
-
-
-def _several(picks, kind, word):
-    picks = [picks] if isinstance(picks, Fault | Horizon) else list(picks)
-    for pick in picks:
-        if not isinstance(pick, kind):
-            raise PickError(
-                f"a {word} is asked for, a seiswidgets.{kind.__name__}, but got a {type(pick).__name__}: {pick!r}"
-            )
-    return picks
-
-
-def _named(picks):
-    """Picks by name; where a name comes again a number is put behind it."""
-    named = {}
-    for pick in picks:
-        name, number = pick.name, 2
-        while name in named:
-            name, number = f"{pick.name} ({number})", number + 1
-        named[name] = pick
-    return named

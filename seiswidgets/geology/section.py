@@ -59,9 +59,9 @@ class Section:
         for field in ("dx", "dz"):
             if getattr(self, field) <= 0:
                 raise SectionError(f"{field} must be above 0, but is {getattr(self, field):g}")
-        if self.x_unit not in METRES:
+        if self.x_unit not in tuple(METRES):
             raise SectionError(f"x_unit must be one of {', '.join(METRES)}, but is {self.x_unit!r}")
-        if self.z_unit not in METRES and self.z_unit not in SECONDS:
+        if self.z_unit not in (*METRES, *SECONDS):
             raise SectionError(f"z_unit must be one of {', '.join([*METRES, *SECONDS])}, but is {self.z_unit!r}")
         object.__setattr__(self, "velocity", self._checked_velocity())
 

@@ -29,12 +29,18 @@ class Options:
     def __post_init__(self):
         if not isinstance(self.weights, Weights):
             raise SettingError(f"weights must be a seiswidgets.Weights, but is {self.weights!r}")
-        if self.solver not in MOST_ITERATIONS:
+        if self.solver not in tuple(MOST_ITERATIONS):
             raise SettingError(f"solver must be {' or '.join(map(repr, MOST_ITERATIONS))}, but is {self.solver!r}")
         limit = MOST_ITERATIONS[self.solver] if self.max_iterations is None else self.max_iterations
         if not isinstance(limit, int | np.integer) or limit < 1:
             raise SettingError(f"max_iterations must be a whole number of 1 or more, but is {limit!r}")
         object.__setattr__(self, "max_iterations", int(limit))
+        if self.progress is not None and not callable(self.progress):
+            raise SettingError(
+                f"progress must be a function of iteration, energy and vertices, but is {self.progress!r}"
+            )
+        if self.start is not None and not hasattr(self.start, "map"):
+            raise SettingError(f"start must be a stage of a restoration, as restored.stages[-1], but is {self.start!r}")
 
 
 def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where, adrift=False) -> Solution:

@@ -1,6 +1,6 @@
 """One stage of a restoration: a mesh before and after it, and how it carries points and lines along."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -9,9 +9,13 @@ from shapely import LineString
 
 from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
-from seiswidgets.core.mesh import Mesh
+from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.core.weld import outline
 from seiswidgets.geology.cutoffs import parts, split_piece
 from seiswidgets.geology.report import Report
+
+PERCENTS = (1, 50, 99)
+CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +45,11 @@ class Stage:
 
     def __post_init__(self):
         self.vertices.setflags(write=False)
+
+    @cached_property
+    def outline(self):
+        """What the rock covers after the step, hairline gaps filled: a shapely Polygon or MultiPolygon."""
+        return outline(self.mesh, self.vertices, CLOSED * self.spacing)
 
     @cached_property
     def map(self) -> PiecewiseAffineMap:
@@ -86,10 +95,10 @@ class Stage:
         return LineString(moved) if len(moved) > 1 else None
 
 
-def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faults=(), **found) -> Stage:
+def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faults=(), unmet=(), **found) -> Stage:
     """The stage that a solution makes, with its report."""
     ratio = deformation.area_ratio(mesh, vertices)
-    percents = (1, 50, 99)
+    percentiles = deformation.weighted_percentiles(ratio, mesh.areas, PERCENTS)
     report = Report(
         kind=kind,
         picks=picks,
@@ -102,14 +111,31 @@ def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faul
         seconds=seconds,
         energy=_energy(solution),
         flipped=int(np.sum(ratio <= 0)),
-        area_ratio=dict(
-            zip(percents, deformation.weighted_percentiles(ratio, mesh.areas, percents).tolist(), strict=True)
-        ),
+        area_ratio=dict(zip(PERCENTS, percentiles.tolist(), strict=True)),
         x_unit=ground.section.x_unit,
         z_unit=ground.section.z_unit,
+        unmet=unmet,
         **found,
     )
-    return Stage(kind, mesh, vertices, faults, ground.spacing, report)
+    stage = Stage(kind, mesh, vertices, faults, ground.spacing, report)
+    return _with_overlap(stage, ground)
+
+
+def _with_overlap(stage, ground):
+    """The stage, with a word in its report where rock has come to lie on other rock."""
+    areas = triangle_areas(stage.vertices, stage.mesh.triangles)
+    overlap = max(0.0, float(areas.sum() - stage.outline.area))
+    unmet = stage.report.unmet
+    if overlap > ground.slack * ground.spacing:
+        unmet = (*unmet, f"room: {overlap:.3g} m² of rock lie on other rock{_place_of_overlap(stage, ground)}")
+    return replace(stage, report=replace(stage.report, overlap=overlap, unmet=unmet))
+
+
+def _place_of_overlap(stage, ground):
+    """Where a triangle lies whose centre another triangle holds as well."""
+    centres = stage.vertices[stage.mesh.triangles].mean(axis=1)
+    covered = stage.map.target_finder(centres) != np.arange(len(centres))
+    return f", as near {ground.where(centres[covered][0])}" if covered.any() else ""
 
 
 def _energy(solution):

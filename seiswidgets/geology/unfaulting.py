@@ -117,6 +117,7 @@ def _blocks(ground, faults, horizons):
         name: [cut.sides(edges_along(whole, line, ground.spacing))[0] for line in bed] for name, bed in beds.items()
     }
     sides = {name: cut.sides(along) for name, along in edges.items()}
+    _check_meshed(cutoffs, beds, drawing, ground)
     return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds)
 
 
@@ -138,6 +139,17 @@ def _inner_edges(mesh, line, name, ground):
             "nothing to slide; draw it inside"
         )
     return along[inner]
+
+
+def _check_meshed(cutoffs, beds, drawing, ground):
+    for pair in cutoffs:
+        for index, place in (pair.hanging_wall, pair.footwall):
+            part = drawing.horizons[pair.horizon][index]
+            if not len(beds[pair.horizon][index]):
+                raise PickError(
+                    f"piece {part.number} of horizon {pair.horizon!r} is only {part.line.length:.2g} m long at fault "
+                    f"{pair.fault!r}, near {ground.where(part.ends[place].point)}; draw more of it, or choose a finer spacing"
+                )
 
 
 def _stitches(cutoffs, beds):

@@ -27,7 +27,9 @@ def test_it_is_worse_with_a_wrong_match():
     today = sw.Restoration(case.section)
     wrong = sw.Horizon(first.pieces[0], second.pieces[1])
     likeness = {
-        name: sw.likeness(today.unfault(case.interpretation.faults, horizon, fixed=case.fixed), *case.interpretation.faults)
+        name: sw.likeness(
+            today.unfault(case.interpretation.faults, horizon, fixed=case.fixed), *case.interpretation.faults
+        )
         for name, horizon in (("right", first), ("wrong", wrong))
     }
     assert likeness["right"] > likeness["wrong"] + 0.5
