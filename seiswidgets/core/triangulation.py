@@ -85,7 +85,8 @@ def _mesh(places, triangles, spacing):
     used, renumbered = np.unique(triangles, return_inverse=True)
     if len(used) < TOO_FEW:
         raise SettingError(
-            f"a mesh spacing of {spacing:g} m makes only {len(used)} vertices; at least {TOO_FEW} are needed: choose less"
+            f"a mesh spacing of {spacing:g} m makes only {len(used)} vertices; at least {TOO_FEW} are needed: "
+            "choose less"
         )
     triangles = renumbered.reshape(-1, 3)
     inverted = triangle_areas(places[used], triangles) < 0

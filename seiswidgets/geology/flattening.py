@@ -84,8 +84,8 @@ def _inside(lines, ground, name):
     lines = [ground.simplified(LineString(merged(shapely.get_coordinates(line), ground.spacing))) for line in lines]
     if not any(line.intersection(ground.outline).length > ground.spacing for line in lines):
         raise PickError(
-            f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or choose "
-            "a finer spacing"
+            f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or "
+            "choose a finer spacing"
         )
     return lines
 

@@ -76,8 +76,8 @@ def anchored(mesh: Mesh) -> np.ndarray:
     """Coordinates that may change where a rigid motion of the whole costs nothing, shape (n, 2): all but three.
 
     A vertex in the middle stays, and one far from it does not move round it. This takes nothing from any solution but
-    its rigid motion. Damping alone would leave Gauss-Newton slow: the residuals that are vectors turn with the whole, so
-    that J^T J sees a stiffness against turning which the energy does not have.
+    its rigid motion. Damping alone would leave Gauss-Newton slow: the residuals that are vectors turn with the whole,
+    so that J^T J sees a stiffness against turning which the energy does not have.
     """
     middle = np.argmin(np.hypot(*(mesh.vertices - np.average(mesh.vertices, axis=0, weights=vertex_masses(mesh))).T))
     arms = np.abs(mesh.vertices - mesh.vertices[middle])

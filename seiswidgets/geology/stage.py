@@ -11,7 +11,7 @@ from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.core.weld import outline
-from seiswidgets.geology.cutoffs import parts, split_piece
+from seiswidgets.geology.parts import parts, split_piece
 from seiswidgets.geology.report import Report
 
 PERCENTS = (1, 50, 99)

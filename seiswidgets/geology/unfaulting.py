@@ -14,9 +14,10 @@ from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Me
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.core.weld import welded
 from seiswidgets.errors import PickError
-from seiswidgets.geology.cutoffs import CutOffs, Drawing, parts
+from seiswidgets.geology.cutoffs import CutOffs, Drawing
 from seiswidgets.geology.faultlines import EDGES, fault_lines, with_points
 from seiswidgets.geology.ground import Ground
+from seiswidgets.geology.parts import parts
 from seiswidgets.geology.report import BedReport, CutOffReport, SeamReport
 from seiswidgets.geology.solving import GAUSS_NEWTON, Options, nearest_rigid, solved, vertex_masses
 from seiswidgets.geology.stage import Stage, staged
@@ -148,7 +149,8 @@ def _check_meshed(cutoffs, beds, drawing, ground):
             if not len(beds[pair.horizon][index]):
                 raise PickError(
                     f"piece {part.number} of horizon {pair.horizon!r} is only {part.line.length:.2g} m long at fault "
-                    f"{pair.fault!r}, near {ground.where(part.ends[place].point)}; draw more of it, or choose a finer spacing"
+                    f"{pair.fault!r}, near {ground.where(part.ends[place].point)}; draw more of it, or choose a finer "
+                    "spacing"
                 )
 
 

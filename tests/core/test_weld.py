@@ -36,7 +36,7 @@ def test_what_is_not_moved_stays_as_it_is():
 def test_the_master_does_not_move_and_the_slave_lies_on_it(case):
     mesh, vertices, sides, _ = case
     slave, master = sides
-    whole, moved = welded(mesh, vertices, [(slave, master)])
+    _, moved = welded(mesh, vertices, [(slave, master)])
     np.testing.assert_array_equal(moved[np.unique(master)], vertices[np.unique(master)])
     seam = shapely.MultiLineString(list(vertices[master]))
     span = shapely.LineString(vertices[np.append(master[:, 0], master[-1, 1])])
@@ -68,7 +68,7 @@ def test_the_map_is_one_to_one_along_the_seam(case):
 
 
 def test_the_outline_is_that_of_the_rock(case):
-    mesh, vertices, sides, block = case
+    mesh, vertices, sides, _ = case
     whole, moved = welded(mesh, vertices, [sides])
     rock = outline(whole, moved, closing=0.5)
     assert rock.geom_type == "Polygon"

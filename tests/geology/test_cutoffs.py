@@ -7,7 +7,8 @@ import pytest
 from shapely import LineString
 
 import seiswidgets as sw
-from seiswidgets.geology.cutoffs import Drawing, hanging_side, parts, split_piece
+from seiswidgets.geology.cutoffs import Drawing
+from seiswidgets.geology.parts import hanging_side, parts, split_piece
 
 TOP, DIP = (1000.0, 0.0), 60.0  # a fault that dips to the right
 ALONG = np.array([np.cos(np.radians(DIP)), np.sin(np.radians(DIP))])

@@ -37,5 +37,5 @@ def test_it_is_worse_with_a_wrong_match():
 
 def test_too_short_a_fault_cannot_be_compared():
     section = sw.synthetic.tilt(dip=0).section
-    with pytest.raises(sw.PickError, match="only .* samples beside fault 'F' have data"):
+    with pytest.raises(sw.PickError, match=r"only .* samples beside fault 'F' have data"):
         sw.likeness(sw.Restoration(section), sw.Fault([(10, 500), (20, 700)], name="F"))

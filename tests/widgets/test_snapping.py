@@ -1,4 +1,4 @@
-"""Picks snap to what was put there: sines, wavelets, and the strong reflector at each horizon of a synthetic section."""
+"""Picks snap to what was put there: sines, wavelets, and the reflector at each horizon of a synthetic section."""
 
 import numpy as np
 import pytest
