@@ -8,7 +8,7 @@ from tests.geology.answers import block_errors, largest_throw, spacing_for
 
 CASES = {
     "planar": (sw.synthetic.planar_fault, {}),
-    "dipping left": (sw.synthetic.planar_fault, {"dip": 120, "throw": 100}),
+    "reverse": (sw.synthetic.planar_fault, {"throw": -100}),
     **{f"listric {turn}": (sw.synthetic.listric_fault, {"turn": turn}) for turn in (0.05, 0.1, 0.2, 0.3)},
     "graben": (sw.synthetic.graben, {}),
     **{
