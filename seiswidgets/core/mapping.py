@@ -132,11 +132,6 @@ class PiecewiseAffineMap:
             object.__setattr__(self, name, array)
 
     @property
-    def inverted(self) -> "PiecewiseAffineMap":
-        """The map from target to source."""
-        return PiecewiseAffineMap(self.target, self.source, self.triangles)
-
-    @property
     def gradient(self) -> np.ndarray:
         """Jacobian of each triangle's map, NaN where the triangle has no area; shape (m, 2, 2)."""
         return self._forward[:-1, 4:].reshape(-1, 2, 2)

@@ -130,19 +130,22 @@ class Cut:
         down, the right-hand side of somebody walking along it), then the copies on the other side.
         """
         edges = np.asarray(edges)
-        return np.stack([self._copies(edges), self._copies(edges[:, ::-1])[:, ::-1]])
+        return np.stack([self._copies(edges)[0], self._copies(edges[:, ::-1])[0][:, ::-1]])
+
+    def along(self, edges) -> np.ndarray:
+        """Directed edges of the whole mesh that are not cut, on its border or inside, in the cut mesh; shape (k, 2)."""
+        edges = np.asarray(edges)
+        (forward, known), (backward, _) = self._copies(edges), self._copies(edges[:, ::-1])
+        return np.where(known[:, None], forward, backward[:, ::-1])
 
     def _copies(self, directed):
-        count = len(self.whole.vertices)
-        keys = self.whole.half_edges @ [count, 1]
+        """Ends of each directed edge in the triangle that follows it in its own sense, and whether there is one."""
+        keys = self.whole.half_edges @ [len(self.whole.vertices), 1]
+        wanted = directed @ [len(self.whole.vertices), 1]
         order = np.argsort(keys)
-        half_edge = order[np.searchsorted(keys, directed @ [count, 1], sorter=order)]
+        half_edge = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
         corners = self.mesh.triangles.ravel()
-        return np.column_stack([corners[half_edge], corners[_next(half_edge)]])
-
-    def copies(self, vertex: int) -> np.ndarray:
-        """The vertices of the cut mesh that one vertex of the whole mesh has become."""
-        return np.unique(self.mesh.triangles[self.whole.triangles == vertex])
+        return np.column_stack([corners[half_edge], corners[_next(half_edge)]]), keys[half_edge] == wanted
 
 
 def _next(half_edge):

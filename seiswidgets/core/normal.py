@@ -72,7 +72,6 @@ class NormalEquations:
         self.size = int(coordinates.sum())
         self._unknown = np.where(coordinates, np.cumsum(coordinates) - 1, -1)
         self._coordinates = np.flatnonzero(coordinates)
-        self._terms = terms
         self._gram = {}
         self._constant = {}
         diagonal = np.arange(self.size) * (self.size + 1)

@@ -114,9 +114,7 @@ def _blocks(ground, faults, horizons):
     whole = ground.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
     edges = {name: _inner_edges(whole, line, name, ground) for name, line in lines.items()}
     cut = whole.cut(np.concatenate(list(edges.values())))
-    beds = {
-        name: [cut.sides(edges_along(whole, line, ground.spacing))[0] for line in bed] for name, bed in beds.items()
-    }
+    beds = {name: [cut.along(edges_along(whole, line, ground.spacing)) for line in bed] for name, bed in beds.items()}
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, drawing, ground)
     return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds)

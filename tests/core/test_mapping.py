@@ -120,7 +120,11 @@ def test_affine_map_is_exact_and_has_its_gradient(mesh):
     there_and_back = np.tile(np.eye(2), (len(mesh.triangles), 1, 1))
     np.testing.assert_allclose(moved.forward(points), points @ matrix.T + shift, atol=1e-10)
     np.testing.assert_allclose(moved.gradient, np.tile(matrix, (len(mesh.triangles), 1, 1)), atol=1e-9)
-    np.testing.assert_allclose(moved.inverted.gradient @ moved.gradient, there_and_back, atol=1e-9)
+    np.testing.assert_allclose(
+        PiecewiseAffineMap(moved.target, moved.source, moved.triangles).gradient @ moved.gradient,
+        there_and_back,
+        atol=1e-9,
+    )
 
 
 @pytest.mark.parametrize(("unit", "offset"), [(1.0, 0.0), (1e-3, 0.0), (0.25, 5e5)])
@@ -131,7 +135,6 @@ def test_there_and_back_again_is_where_it_was(mesh, unit, offset):
     there = PiecewiseAffineMap(source, target, mesh.triangles)
     back = there.inverse(there.forward(points))
     np.testing.assert_allclose(back, points, rtol=0, atol=max(1e-9 * unit, 4 * np.spacing(offset)))
-    np.testing.assert_array_equal(there.inverted.forward(there.forward(points)), back)
 
 
 def test_vertices_are_carried_to_their_targets(mesh):

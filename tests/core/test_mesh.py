@@ -107,12 +107,17 @@ def test_vertices_and_blocks_that_a_cut_makes(name, more_vertices, blocks):
     assert mesh.blocks.max() + 1 == blocks == len(np.unique(mesh.blocks))
 
 
+def copies_of(cut, vertex):
+    """The vertices of the cut mesh that one vertex of the whole mesh has become."""
+    return np.unique(cut.mesh.triangles[cut.whole.triangles == vertex])
+
+
 @pytest.mark.parametrize(
     ("name", "copies"), [("none", 1), ("blind", 2), ("to one border", 1), ("crossing", 4), ("branch", 3)]
 )
 def test_copies_of_the_middle(name, copies):
     cut = grid(COLUMNS, ROWS).cut(np.concatenate([np.empty((0, 2), int), *CUTS[name]]))
-    middle = cut.copies(CENTRE)
+    middle = copies_of(cut, CENTRE)
     assert len(middle) == copies
     np.testing.assert_array_equal(cut.mesh.vertices[middle], np.tile([4.0, 3.0], (copies, 1)))
 
@@ -120,7 +125,7 @@ def test_copies_of_the_middle(name, copies):
 def test_tips_of_a_blind_cut_stay_joined():
     cut = grid(COLUMNS, ROWS).cut(CUTS["blind"][0])
     slit = row(3, 2, 6)
-    assert [len(cut.copies(vertex)) for vertex in slit] == [1, 2, 2, 2, 1]
+    assert [len(copies_of(cut, vertex)) for vertex in slit] == [1, 2, 2, 2, 1]
     right, left = cut.sides(chain(slit))
     assert right[0, 0] == left[0, 0]
     assert right[-1, 1] == left[-1, 1]
@@ -171,3 +176,14 @@ def test_a_mesh_cannot_be_changed(name):
     assert mesh.vertices.any()
     with pytest.raises(ValueError, match="read-only"):
         getattr(mesh, name)[0, 0] = 1
+
+
+@pytest.mark.parametrize("line", ["top", "bottom", "inside"])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_line_that_is_not_cut_is_found_again_on_the_border_too(line, turned):
+    cut = grid(COLUMNS, ROWS).cut(CUTS["blind"][0])
+    edges = chain({"top": row(0, 0, COLUMNS), "bottom": row(ROWS, 0, COLUMNS), "inside": row(1, 1, 5)}[line])
+    edges = edges[::-1, ::-1] if turned else edges
+    found = cut.along(edges)
+    np.testing.assert_array_equal(cut.mesh.vertices[found], cut.whole.vertices[edges])
+    np.testing.assert_array_equal(found[1:, 0], found[:-1, 1])
