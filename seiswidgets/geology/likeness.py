@@ -8,7 +8,7 @@ from seiswidgets.errors import PickError
 from seiswidgets.geology.picks import Fault
 from seiswidgets.geology.restoration import Restoration
 
-BESIDE = 0.05  # traces: how far beside a fault its two sides are told apart
+BESIDE = 0.1  # traces: how far beside a fault its two sides are told apart
 LEAST_SAMPLES = 8
 
 

@@ -15,6 +15,7 @@ from seiswidgets.geology.parts import parts, split_piece
 from seiswidgets.geology.report import Report
 
 PERCENTS = (1, 50, 99)
+FINE, PLACES = 0.25, 64  # a line is carried at places a quarter of the spacing apart, and at so many at least
 CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
 
 
@@ -82,7 +83,7 @@ class Stage:
         return [line for line in carried if line is not None]
 
     def _moved(self, line, sideways):
-        points = shapely.get_coordinates(line.segmentize(self.spacing / 2))
+        points = shapely.get_coordinates(line.segmentize(min(FINE * self.spacing, line.length / PLACES)))
         within = (
             points.copy()
         )  # in the triangles that carry the points: the line's end on a fault belongs to its own side
