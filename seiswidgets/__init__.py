@@ -29,6 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.stage": ["Stage"],
         "geology.weights": ["Weights"],
         "io": ["datasets"],
+        "widgets.pane": ["SectionPane"],
     },
 )
 

@@ -1,0 +1,72 @@
+"""From amplitudes to colours."""
+
+from dataclasses import dataclass
+
+import matplotlib as mpl
+import numpy as np
+from PIL import Image
+
+from seiswidgets.errors import SettingError
+from seiswidgets.geology.section import Section
+from seiswidgets.plot.frame import OUTSIDE
+
+NAMES = {"greys": "gray", "red-white-blue": "RdBu"}  # all others go by matplotlib's own names
+SAMPLE = 1_000_000  # amplitudes that a percentile is taken of, about
+
+
+@dataclass(frozen=True)
+class Colouring:
+    """How amplitudes become colours.
+
+    Parameters
+    ----------
+    name : str
+        "greys", "red-white-blue", or any colour map of matplotlib.
+    limit : float
+        The amplitude at which the colours end, on both sides of 0.
+    """
+
+    name: str
+    limit: float
+
+    def levels(self, amplitude: np.ndarray) -> np.ndarray:
+        """Places in the palette, of the same shape: 1 to 255, 128 for amplitude 0, and 0 where there are no data."""
+        known = np.isfinite(amplitude)
+        scaled = np.clip(np.where(known, amplitude, 0) / self.limit, -1, 1)
+        return np.where(known, np.rint(128 + 127 * scaled), 0).astype(np.uint8)
+
+    @property
+    def palette(self) -> np.ndarray:
+        """Red, green and blue of each level, shape (256, 3), uint8; of level 0, the colour of no data."""
+        colours = colour_map(self.name)(np.linspace(0, 1, 255))
+        return np.rint(255 * np.vstack([mpl.colors.to_rgba(OUTSIDE), colours])[:, :3]).astype(np.uint8)
+
+
+def colour_map(name: str) -> mpl.colors.Colormap:
+    """A colour map by its name; SettingError if there is none."""
+    try:
+        return mpl.colormaps[NAMES.get(name, name)]
+    except KeyError:
+        known = ", ".join(map(repr, NAMES))
+        raise SettingError(f"colours must be {known} or a colour map of matplotlib, but are {name!r}") from None
+
+
+def clip_limit(section: Section, clip: float) -> float:
+    """The amplitude of a percentile of the absolute amplitudes; 1 where all of them are 0."""
+    stride = max(1, int(np.sqrt(section.amplitude.size / SAMPLE)))
+    amplitude = np.abs(section.amplitude[::stride, ::stride])
+    known = amplitude[np.isfinite(amplitude)]
+    return (float(np.percentile(known, clip)) if len(known) else 0.0) or 1.0
+
+
+def resampled(amplitude: np.ndarray, box: tuple[float, float, float, float], size: tuple[int, int]) -> np.ndarray:
+    """Amplitudes averaged onto fewer pixels.
+
+    Parameters
+    ----------
+    amplitude : array, shape (nz, nx)
+    box : tuple (left, top, right, bottom)
+        The part that is taken, in cells from the outer corner of the first.
+    size : tuple (width, height)
+    """
+    return np.asarray(Image.fromarray(np.asarray(amplitude, np.float32)).resize(size, Image.Resampling.BOX, box))

@@ -1,0 +1,218 @@
+"""A JupyterLab, and a Chromium that looks at it."""
+
+import contextlib
+import json
+import os
+import re
+import secrets
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from pathlib import Path
+
+import nbformat
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SCREENSHOTS = ROOT / "screenshots"
+FLAGS = [
+    "--no-sandbox",  # or it will not run as root
+    "--disable-gpu",
+    "--disable-quic",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+IGNORED = re.compile("favicon|net::ERR_INTERNET_DISCONNECTED")
+START, RUN = 60, 60  # seconds that the server may take to start, and anything in the page
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """A running Chromium; skips where there is none, but never in CI."""
+    path = shutil.which("chromium") or shutil.which("google-chrome")
+    if path is None:
+        missing = "there is no Chromium here; on Debian: apt-get install chromium"
+        pytest.fail(missing) if os.environ.get("CI") else pytest.skip(missing)
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def lab(tmp_path_factory):
+    """The address of a JupyterLab of its own, its token and its folder."""
+    folder = tmp_path_factory.mktemp("lab")
+    server = Server(folder)
+    try:
+        server.wait()
+        yield server
+    finally:
+        server.process.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            server.process.wait(10)
+        if server.process.poll() is None:
+            server.process.kill()
+
+
+class Server:
+    """JupyterLab on 127.0.0.1, at a free port, with a token, with none of the user's settings."""
+
+    def __init__(self, folder):
+        self.folder, self.token, self.port = folder / "work", secrets.token_hex(16), _free_port()
+        self.folder.mkdir()
+        settings = folder / "settings"
+        (settings / "lab").mkdir(parents=True)
+        self._write_overrides(folder)
+        home = {
+            name: str(folder / name.lower()) for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
+        }
+        path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+        environment = {**os.environ, **home, "PYTHONPATH": path}
+        command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1"]
+        command += [f"--port={self.port}", "--ServerApp.port_retries=0", f"--IdentityProvider.token={self.token}"]
+        command += [f"--ServerApp.root_dir={self.folder}", f"--LabApp.user_settings_dir={settings}"]
+        command += [f"--LabApp.workspaces_dir={folder / 'workspaces'}", "--LabApp.expose_app_in_browser=True"]
+        self.log = folder / "server.log"
+        with self.log.open("w") as log:
+            self.process = subprocess.Popen(command, env=environment, stdout=log, stderr=log, cwd=self.folder)
+
+    def _write_overrides(self, folder):
+        config = folder / "jupyter_config_dir" / "labconfig"
+        config.mkdir(parents=True)
+        news = {"@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": False}}
+        (config / "default_setting_overrides.json").write_text(json.dumps(news))
+
+    def wait(self):
+        """Until it answers."""
+        for _ in range(START * 5):
+            if self.process.poll() is not None:
+                break
+            with contextlib.suppress(OSError):
+                urllib.request.urlopen(f"http://127.0.0.1:{self.port}/api?token={self.token}", timeout=2)
+                return
+            time.sleep(0.2)
+        pytest.fail(f"JupyterLab did not start:\n{self.log.read_text()[-3000:]}")
+
+    def address(self, path):
+        """Of a notebook."""
+        return f"http://127.0.0.1:{self.port}/lab/tree/{path}?reset&token={self.token}"
+
+
+@pytest.fixture
+def notebook(lab, chromium):
+    """A function that opens a notebook with some cells and runs them; at the end the console must hold no error."""
+    opened = []
+
+    def open_notebook(*cells, **options):
+        opened.append(Notebook(lab, chromium, cells, **options))
+        return opened[-1]
+
+    yield open_notebook
+    for one in opened:
+        one.close()
+    assert [error for one in opened for error in one.errors] == []
+
+
+class Notebook:
+    """A notebook in the browser, its cells run.
+
+    Parameters
+    ----------
+    lab, chromium
+        The fixtures.
+    cells : sequence of str
+        Its code.
+    ratio : float
+        Device pixels in a css pixel.
+    dark : bool
+        JupyterLab's dark theme.
+    width, height : int
+        Of the window, in css pixels.
+    """
+
+    def __init__(self, lab, chromium, cells, *, ratio=1.0, dark=False, width=1200, height=900):
+        name = f"{secrets.token_hex(4)}.ipynb"
+        made = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+        made.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
+        nbformat.write(made, lab.folder / name)
+        self.errors = []
+        self.context = chromium.new_context(viewport={"width": width, "height": height}, device_scale_factor=ratio)
+        self.page = self.context.new_page()
+        self.page.set_default_timeout(RUN * 1000)
+        self.page.on("console", self._note)
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.sent = []
+        self.page.on("websocket", lambda socket: socket.on("framesent", lambda frame: self.sent.append(frame)))
+        self.page.goto(lab.address(name))
+        self._simplify(dark)
+        self.run()
+
+    def _note(self, message):
+        if message.type == "error" and not IGNORED.search(message.text):
+            self.errors.append(f"{message.text} ({message.location.get('url')})")
+
+    def _simplify(self, dark):
+        self.page.locator(".jp-Notebook").wait_for()
+        self.page.wait_for_function(READY)
+        self.command("application:toggle-left-area")
+        light = str(not dark).lower()
+        if self.page.locator("body").get_attribute("data-jp-theme-light") != light:  # as the last test left it
+            self.command("apputils:change-theme", {"theme": f"JupyterLab {'Dark' if dark else 'Light'}"})
+            self.page.locator(f"body[data-jp-theme-light={light}]").wait_for(state="attached")
+
+    def command(self, name, arguments=None):
+        """Execute one of JupyterLab's commands."""
+        self.page.evaluate(EXECUTE, [name, arguments or {}])
+        self.page.wait_for_function("window.done")
+
+    def run(self):
+        """Run all cells, until the last one is done."""
+        self.command("notebook:run-all-cells")
+
+    def reload(self):
+        """Load the page anew; the kernel goes on."""
+        self.page.reload()
+        self.page.wait_for_function(READY)
+
+    def ask(self, code):
+        """What an expression is in the kernel, by way of the notebook's own kernel connection."""
+        return json.loads(self.page.evaluate(ASK, f"import json; print(json.dumps({code}))"))
+
+    def close(self):
+        self.context.close()
+
+
+READY = """() => {
+  const kernel = window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel;
+  return kernel?.connectionStatus === "connected" && kernel.status === "idle";
+}"""
+
+EXECUTE = """([name, given]) => {
+  window.done = false;
+  window.jupyterapp.commands.execute(name, given).then(() => { window.done = true; });
+}"""
+
+ASK = """async (code) => {
+  const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+  const future = kernel.requestExecute({ code, store_history: false });
+  let text = "";
+  future.onIOPub = (message) => {
+    if (message.header.msg_type === "stream") text += message.content.text;
+    if (message.header.msg_type === "error") text += JSON.stringify(message.content.traceback.join("\\n"));
+  };
+  await future.done;
+  return text;
+}"""
+
+
+def _free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
