@@ -24,6 +24,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.likeness": ["likeness"],
         "geology.picks": ["Fault", "Horizon", "Interpretation"],
         "geology.report": ["Report"],
+        "geology.plan": ["Plan", "Step"],
         "geology.restoration": ["Restoration"],
         "geology.section": ["Section"],
         "geology.stage": ["Stage"],

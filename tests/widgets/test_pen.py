@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 import seiswidgets as sw
 from seiswidgets.geology.cutoffs import heave, throw
-from seiswidgets.widgets import picker as module
+from seiswidgets.widgets import pen as module
 from seiswidgets.widgets.gestures import DoubleClick, Key, Move, Press, Release
-from seiswidgets.widgets.picker import Picker
-from seiswidgets.widgets.pickerstate import MODES
+from seiswidgets.widgets.pen import Pen
+from seiswidgets.widgets.penstate import MODES
 from seiswidgets.widgets.snapping import followed, snapped
 from seiswidgets.widgets.view import View
 
@@ -29,146 +29,146 @@ PICKS = sw.Interpretation(  # a horizon of two pieces that end at the fault, and
 
 
 @pytest.fixture
-def picker():
-    return Picker(VIEW)
+def pen():
+    return Pen(VIEW)
 
 
 @pytest.fixture
 def drawn():
-    return Picker.from_interpretation(VIEW, PICKS, (100.0, 100.0))
+    return Pen.from_interpretation(VIEW, PICKS, (100.0, 100.0))
 
 
-def press(picker, point, modifiers=frozenset(), button=0):
-    return picker.handle(Press(point, tuple(VIEW.to_pixels(point)), button, modifiers))
+def press(pen, point, modifiers=frozenset(), button=0):
+    return pen.handle(Press(point, tuple(VIEW.to_pixels(point)), button, modifiers))
 
 
-def move(picker, point, modifiers=frozenset()):
-    return picker.handle(Move(point, tuple(VIEW.to_pixels(point)), modifiers))
+def move(pen, point, modifiers=frozenset()):
+    return pen.handle(Move(point, tuple(VIEW.to_pixels(point)), modifiers))
 
 
-def release(picker, point):
-    return picker.handle(Release(point, tuple(VIEW.to_pixels(point))))
+def release(pen, point):
+    return pen.handle(Release(point, tuple(VIEW.to_pixels(point))))
 
 
-def click(picker, point, modifiers=frozenset()):
-    return press(picker, point, modifiers) | release(picker, point)
+def click(pen, point, modifiers=frozenset()):
+    return press(pen, point, modifiers) | release(pen, point)
 
 
-def double_click(picker, point):
-    click(picker, point)
-    click(picker, point)
-    return picker.handle(DoubleClick(point, tuple(VIEW.to_pixels(point))))
+def double_click(pen, point):
+    click(pen, point)
+    click(pen, point)
+    return pen.handle(DoubleClick(point, tuple(VIEW.to_pixels(point))))
 
 
-def drag(picker, start, *ways, modifiers=frozenset()):
-    press(picker, start)
+def drag(pen, start, *ways, modifiers=frozenset()):
+    press(pen, start)
     for way in ways:
-        move(picker, way, modifiers)
-    release(picker, ways[-1])
+        move(pen, way, modifiers)
+    release(pen, ways[-1])
 
 
-def keys(picker, *names, modifiers=frozenset()):
-    return [picker.handle(Key(name, modifiers)) for name in names]
+def keys(pen, *names, modifiers=frozenset()):
+    return [pen.handle(Key(name, modifiers)) for name in names]
 
 
-def draw(picker, points):
+def draw(pen, points):
     for point in points[:-1]:
-        click(picker, point)
-    double_click(picker, points[-1])
+        click(pen, point)
+    double_click(pen, points[-1])
 
 
-def pieces(picker, name="F1", kind="fault"):
-    return picker.drawing.pick(kind, name).pieces
+def pieces(pen, name="F1", kind="fault"):
+    return pen.drawing.pick(kind, name).pieces
 
 
 # Drawing
 
 
-def test_click_adds_vertices_and_a_double_click_finishes(picker):
-    picker.enter("fault")
+def test_click_adds_vertices_and_a_double_click_finishes(pen):
+    pen.enter("fault")
     for number, point in enumerate(FAULT, 1):
-        assert click(picker, point)
-        assert picker.drawing.under_way.points == tuple(FAULT[:number])
-        assert picker.rubber_band == point
-    assert picker.interpretation.faults == ()
-    assert double_click(picker, FAULT[-1])
-    assert picker.drawing.under_way is None
-    assert picker.rubber_band is None
-    assert picker.interpretation.fault("F1").points.tolist() == [list(point) for point in FAULT]
+        assert click(pen, point)
+        assert pen.drawing.under_way.points == tuple(FAULT[:number])
+        assert pen.rubber_band == point
+    assert pen.interpretation.faults == ()
+    assert double_click(pen, FAULT[-1])
+    assert pen.drawing.under_way is None
+    assert pen.rubber_band is None
+    assert pen.interpretation.fault("F1").points.tolist() == [list(point) for point in FAULT]
 
 
-def test_enter_finishes(picker):
-    picker.enter("fault")
+def test_enter_finishes(pen):
+    pen.enter("fault")
     for point in FAULT:
-        click(picker, point)
-    assert keys(picker, "Enter") == [True]
-    assert pieces(picker) == (tuple(FAULT),)
+        click(pen, point)
+    assert keys(pen, "Enter") == [True]
+    assert pieces(pen) == (tuple(FAULT),)
 
 
-def test_new_picks_take_free_names(picker):
-    picker.enter("fault")
+def test_new_picks_take_free_names(pen):
+    pen.enter("fault")
     for x in (100.0, 300.0, 500.0):
-        draw(picker, [(x, 100.0), (x, 200.0)])
-    assert picker.drawing.names("fault") == ("F1", "F2", "F3")
-    picker.delete("fault", "F2")
-    draw(picker, [(700.0, 100.0), (700.0, 200.0)])
-    assert picker.drawing.names("fault") == ("F1", "F3", "F2")
-    assert len({pick.colour for pick in picker.drawing.picks}) == 3
+        draw(pen, [(x, 100.0), (x, 200.0)])
+    assert pen.drawing.names("fault") == ("F1", "F2", "F3")
+    pen.delete("fault", "F2")
+    draw(pen, [(700.0, 100.0), (700.0, 200.0)])
+    assert pen.drawing.names("fault") == ("F1", "F3", "F2")
+    assert len({pick.colour for pick in pen.drawing.picks}) == 3
 
 
-def test_a_line_begun_with_a_horizon_selected_is_a_piece_of_it(picker):
-    picker.enter("horizon")
-    draw(picker, LEFT)
-    draw(picker, RIGHT)
-    assert pieces(picker, "H1", "horizon") == (tuple(LEFT), tuple(RIGHT))
-    keys(picker, "Escape")
-    draw(picker, [(100.0, 500.0), (200.0, 500.0)])
-    assert picker.drawing.names("horizon") == ("H1", "H2")
-    assert len(picker.interpretation.horizon("H1").pieces) == 2
+def test_a_line_begun_with_a_horizon_selected_is_a_piece_of_it(pen):
+    pen.enter("horizon")
+    draw(pen, LEFT)
+    draw(pen, RIGHT)
+    assert pieces(pen, "H1", "horizon") == (tuple(LEFT), tuple(RIGHT))
+    keys(pen, "Escape")
+    draw(pen, [(100.0, 500.0), (200.0, 500.0)])
+    assert pen.drawing.names("horizon") == ("H1", "H2")
+    assert len(pen.interpretation.horizon("H1").pieces) == 2
 
 
-def test_the_piece_begun_keeps_its_horizon_through_undo(picker):
-    picker.enter("horizon")
-    draw(picker, LEFT)
-    click(picker, RIGHT[0])
-    picker.undo()
-    draw(picker, RIGHT)
-    assert len(pieces(picker, "H1", "horizon")) == 2
+def test_the_piece_begun_keeps_its_horizon_through_undo(pen):
+    pen.enter("horizon")
+    draw(pen, LEFT)
+    click(pen, RIGHT[0])
+    pen.undo()
+    draw(pen, RIGHT)
+    assert len(pieces(pen, "H1", "horizon")) == 2
     for _ in range(20):
-        picker.undo()
+        pen.undo()
     for _ in range(20):
-        picker.redo()
-    assert pieces(picker, "H1", "horizon") == (tuple(LEFT), tuple(RIGHT))
+        pen.redo()
+    assert pieces(pen, "H1", "horizon") == (tuple(LEFT), tuple(RIGHT))
 
 
-def test_a_line_of_one_point_stays_under_way(picker):
-    picker.enter("fault")
-    double_click(picker, FAULT[0])
-    keys(picker, "Enter")
-    assert picker.drawing.under_way.points == (FAULT[0],)
-    click(picker, FAULT[1])
-    keys(picker, "Enter")
-    assert pieces(picker) == (tuple(FAULT[:2]),)
+def test_a_line_of_one_point_stays_under_way(pen):
+    pen.enter("fault")
+    double_click(pen, FAULT[0])
+    keys(pen, "Enter")
+    assert pen.drawing.under_way.points == (FAULT[0],)
+    click(pen, FAULT[1])
+    keys(pen, "Enter")
+    assert pieces(pen) == (tuple(FAULT[:2]),)
 
 
-def test_a_change_of_mode_finishes_the_line(picker):
-    picker.enter("fault")
+def test_a_change_of_mode_finishes_the_line(pen):
+    pen.enter("fault")
     for point in FAULT:
-        click(picker, point)
-    picker.enter("horizon")
-    assert pieces(picker) == (tuple(FAULT),)
-    click(picker, LEFT[0])
-    picker.enter("look")
-    assert picker.drawing.under_way is None
-    picker.undo()
-    assert picker.drawing.under_way.points == (LEFT[0],)
-    assert picker.state.mode == "horizon"
+        click(pen, point)
+    pen.enter("horizon")
+    assert pieces(pen) == (tuple(FAULT),)
+    click(pen, LEFT[0])
+    pen.enter("look")
+    assert pen.drawing.under_way is None
+    pen.undo()
+    assert pen.drawing.under_way.points == (LEFT[0],)
+    assert pen.state.mode == "horizon"
 
 
-def test_points_off_the_section_go_to_its_border(picker):
-    picker.enter("fault")
-    draw(picker, [(300.0, -4.0), (400.0, 604.0)])
-    assert pieces(picker) == (((300.0, 0.0), (400.0, 600.0)),)
+def test_points_off_the_section_go_to_its_border(pen):
+    pen.enter("fault")
+    draw(pen, [(300.0, -4.0), (400.0, 604.0)])
+    assert pieces(pen) == (((300.0, 0.0), (400.0, 600.0)),)
 
 
 def test_shift_draws_over_what_lies_there(drawn):
@@ -337,38 +337,38 @@ def test_a_restored_pane_has_pixels_of_its_own(drawn):
 # The keyboard alone
 
 
-def test_a_fault_and_a_horizon_by_keyboard_alone(picker):
-    assert keys(picker, "f", "Enter") == [True, True]
-    assert picker.state.cursor == pytest.approx((450.0, 300.0), abs=10)
-    keys(picker, "ArrowUp", "ArrowUp", modifiers=SHIFT)
-    start = picker.state.cursor
-    keys(picker, "Enter", "ArrowDown", "ArrowDown", "ArrowRight", " ")
-    keys(picker, "ArrowDown", modifiers=SHIFT)
-    keys(picker, "Enter", "Enter")
+def test_a_fault_and_a_horizon_by_keyboard_alone(pen):
+    assert keys(pen, "f", "Enter") == [True, True]
+    assert pen.state.cursor == pytest.approx((450.0, 300.0), abs=10)
+    keys(pen, "ArrowUp", "ArrowUp", modifiers=SHIFT)
+    start = pen.state.cursor
+    keys(pen, "Enter", "ArrowDown", "ArrowDown", "ArrowRight", " ")
+    keys(pen, "ArrowDown", modifiers=SHIFT)
+    keys(pen, "Enter", "Enter")
     (x, z) = start
-    assert pieces(picker) == ((start, (x + 10, z + 20), (x + 10, z + 120)),)
-    keys(picker, "h", "ArrowLeft", "Enter", "ArrowLeft", "ArrowLeft", "Enter", "Enter")
-    assert len(picker.interpretation.horizon("H1").pieces[0]) == 2
-    assert picker.state.cursor is not None
-    keys(picker, "Escape", "Escape")
-    assert picker.state.mode == "look"
+    assert pieces(pen) == ((start, (x + 10, z + 20), (x + 10, z + 120)),)
+    keys(pen, "h", "ArrowLeft", "Enter", "ArrowLeft", "ArrowLeft", "Enter", "Enter")
+    assert len(pen.interpretation.horizon("H1").pieces[0]) == 2
+    assert pen.state.cursor is not None
+    keys(pen, "Escape", "Escape")
+    assert pen.state.mode == "look"
 
 
-def test_delete_takes_back_what_the_keyboard_put(picker):
-    keys(picker, "f", "Enter", "Enter", "ArrowDown", "Enter", "Backspace")
-    assert len(picker.drawing.under_way.points) == 1
-    keys(picker, "ArrowRight", "Enter", "Enter")
-    assert len(pieces(picker)[0]) == 2
+def test_delete_takes_back_what_the_keyboard_put(pen):
+    keys(pen, "f", "Enter", "Enter", "ArrowDown", "Enter", "Backspace")
+    assert len(pen.drawing.under_way.points) == 1
+    keys(pen, "ArrowRight", "Enter", "Enter")
+    assert len(pieces(pen)[0]) == 2
 
 
-def test_the_cursor_steps_by_pixels_or_by_one_sample(picker):
-    picker.view = View(SECTION, 91, 61)  # a sample a pixel
-    keys(picker, "f", "Enter")
-    x, z = picker.state.cursor
-    keys(picker, "ArrowRight")
-    assert picker.state.cursor == (x + 80, z)
-    keys(picker, "ArrowLeft", modifiers=CTRL)
-    assert picker.state.cursor == (x + 70, z)
+def test_the_cursor_steps_by_pixels_or_by_one_sample(pen):
+    pen.view = View(SECTION, 91, 61)  # a sample a pixel
+    keys(pen, "f", "Enter")
+    x, z = pen.state.cursor
+    keys(pen, "ArrowRight")
+    assert pen.state.cursor == (x + 80, z)
+    keys(pen, "ArrowLeft", modifiers=CTRL)
+    assert pen.state.cursor == (x + 70, z)
 
 
 def test_tab_and_other_keys_are_left_alone(drawn):
@@ -389,51 +389,51 @@ def test_the_table_names_every_key():
 # The held block
 
 
-def test_hold_a_block(picker):
-    picker.enter("block")
-    click(picker, (200.0, 300.0))
-    assert picker.drawing.fixed == (200.0, 300.0)
-    click(picker, (600.0, 300.0))
-    assert picker.drawing.fixed == (600.0, 300.0)
-    click(picker, (603.0, 302.0))
-    assert picker.drawing.fixed is None
-    picker.undo()
-    assert picker.drawing.fixed == (600.0, 300.0)
-    double_click(picker, (200.0, 300.0))
-    assert picker.drawing.fixed == (200.0, 300.0)
-    keys(picker, "Delete")
-    assert picker.drawing.fixed is None
-    keys(picker, "Enter", "Enter")
-    assert picker.drawing.fixed is not None
-    keys(picker, "Enter")
-    assert picker.drawing.fixed is None
+def test_hold_a_block(pen):
+    pen.enter("block")
+    click(pen, (200.0, 300.0))
+    assert pen.drawing.fixed == (200.0, 300.0)
+    click(pen, (600.0, 300.0))
+    assert pen.drawing.fixed == (600.0, 300.0)
+    click(pen, (603.0, 302.0))
+    assert pen.drawing.fixed is None
+    pen.undo()
+    assert pen.drawing.fixed == (600.0, 300.0)
+    double_click(pen, (200.0, 300.0))
+    assert pen.drawing.fixed == (200.0, 300.0)
+    keys(pen, "Delete")
+    assert pen.drawing.fixed is None
+    keys(pen, "Enter", "Enter")
+    assert pen.drawing.fixed is not None
+    keys(pen, "Enter")
+    assert pen.drawing.fixed is None
 
 
 # Undo and Escape
 
 
-def test_undo_and_redo_by_keys(picker):
-    picker.enter("fault")
-    draw(picker, FAULT)
-    done = picker.drawing
+def test_undo_and_redo_by_keys(pen):
+    pen.enter("fault")
+    draw(pen, FAULT)
+    done = pen.drawing
     for _ in range(4):
-        assert keys(picker, "z", modifiers=CTRL) == [True]
-    assert picker.drawing.picks == ()
-    assert picker.drawing.under_way is None
-    assert not picker.can_undo
-    keys(picker, "Z", modifiers=CTRL | SHIFT)
-    keys(picker, "y", "y", "y", modifiers=CTRL)
-    assert picker.drawing == done
-    assert not picker.can_redo
+        assert keys(pen, "z", modifiers=CTRL) == [True]
+    assert pen.drawing.picks == ()
+    assert pen.drawing.under_way is None
+    assert not pen.can_undo
+    keys(pen, "Z", modifiers=CTRL | SHIFT)
+    keys(pen, "y", "y", "y", modifiers=CTRL)
+    assert pen.drawing == done
+    assert not pen.can_redo
 
 
-def test_an_edit_after_undo_forgets_what_was_undone(picker):
-    picker.enter("fault")
-    click(picker, FAULT[0])
-    picker.undo()
-    click(picker, FAULT[1])
-    assert not picker.redo()
-    assert picker.drawing.under_way.points == (FAULT[1],)
+def test_an_edit_after_undo_forgets_what_was_undone(pen):
+    pen.enter("fault")
+    click(pen, FAULT[0])
+    pen.undo()
+    click(pen, FAULT[1])
+    assert not pen.redo()
+    assert pen.drawing.under_way.points == (FAULT[1],)
 
 
 def test_escape_leaves_step_by_step(drawn):
@@ -457,13 +457,13 @@ def test_escape_leaves_step_by_step(drawn):
     assert len(drawn.drawing.under_way.points) == 2
 
 
-def test_undo_goes_back_without_limit(picker):
-    picker.enter("fault")
+def test_undo_goes_back_without_limit(pen):
+    pen.enter("fault")
     for number in range(3000):
-        click(picker, (float(number % 40) * 20, float(number // 40) * 7), SHIFT)
-    while picker.undo():
+        click(pen, (float(number % 40) * 20, float(number // 40) * 7), SHIFT)
+    while pen.undo():
         pass
-    assert picker.drawing == Picker(VIEW).drawing
+    assert pen.drawing == Pen(VIEW).drawing
 
 
 # The list of picks
@@ -545,8 +545,8 @@ CASES = [sw.synthetic.graben(), sw.synthetic.faulted_fold(), sw.synthetic.domino
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.section.name)
 def test_interpretation_there_and_back(case):
-    given_in, picker = case.interpretation, Picker.from_interpretation(View(case.section), case.interpretation)
-    back = picker.interpretation
+    given_in, pen = case.interpretation, Pen.from_interpretation(View(case.section), case.interpretation)
+    back = pen.interpretation
     assert [fault.name for fault in back.faults] == [fault.name for fault in given_in.faults]
     assert [horizon.name for horizon in back.horizons] == [horizon.name for horizon in given_in.horizons]
     for one, other in zip(given_in.faults, back.faults, strict=True):
@@ -554,12 +554,12 @@ def test_interpretation_there_and_back(case):
     for one, other in zip(given_in.horizons, back.horizons, strict=True):
         assert len(one.pieces) == len(other.pieces)
         assert all(map(np.array_equal, one.pieces, other.pieces))
-    assert picker.problems == []
-    before = picker.drawing
-    picker.load(picker.interpretation)
-    assert not picker.can_undo
-    picker.load(given_in)
-    assert picker.drawing == before
+    assert pen.problems == []
+    before = pen.drawing
+    pen.load(pen.interpretation)
+    assert not pen.can_undo
+    pen.load(given_in)
+    assert pen.drawing == before
 
 
 def test_loading_is_an_edit_and_keeps_looks(drawn):
@@ -588,7 +588,7 @@ def test_cutoffs_are_numbered_by_fault_and_horizon(drawn):
 
 @pytest.mark.parametrize("case", CASES[:2], ids=lambda case: case.section.name)
 def test_cutoffs_of_a_synthetic_section(case):
-    marks = Picker.from_interpretation(View(case.section), case.interpretation).cutoffs()
+    marks = Pen.from_interpretation(View(case.section), case.interpretation).cutoffs()
     for fault in case.interpretation.faults:
         for horizon in case.interpretation.horizons:
             found = {m.wall: m.point for m in marks if (m.fault, m.horizon) == (fault.name, horizon.name)}
@@ -656,24 +656,24 @@ def test_shift_takes_a_cutoff_off_its_fault(drawn):
 def test_horizons_snap_and_faults_do_not():
     case = sw.synthetic.sine_fold(noise=0)
     view = View(case.section)
-    picker = Picker(
+    pen = Pen(
         view,
         snap=lambda point: snapped(case.section, point, "peak", 6),
         follow=lambda start, end: followed(case.section, start, end, "peak", 40),
     )
     (bed,) = case.interpretation.horizons[1].pieces
-    picker.enter("horizon")
+    pen.enter("horizon")
     for point in (bed[3] + (0, 12), bed[30] - (0, 9)):
-        picker.handle(Press(tuple(point), tuple(view.to_pixels(point))))
-    line = np.array(picker.drawing.under_way.points)
+        pen.handle(Press(tuple(point), tuple(view.to_pixels(point))))
+    line = np.array(pen.drawing.under_way.points)
     assert len(line) > 3
     assert abs(np.interp(line[:, 0], *bed.T) - line[:, 1]).max() < case.section.dz
-    picker.undo()
-    assert len(picker.drawing.under_way.points) == 1
-    picker.enter("fault")
+    pen.undo()
+    assert len(pen.drawing.under_way.points) == 1
+    pen.enter("fault")
     point = tuple(bed[3] + (0, 12))
-    picker.handle(Press(point, tuple(view.to_pixels(point))))
-    assert picker.drawing.under_way.points == (point,)
+    pen.handle(Press(point, tuple(view.to_pixels(point))))
+    assert pen.drawing.under_way.points == (point,)
 
 
 # Any gestures in any order
@@ -698,56 +698,56 @@ def gestures(draw):
 
 
 COMMANDS = {
-    "rename": lambda picker, pick: picker.rename(
-        pick.kind, pick.name, "H1" if pick.kind == "horizon" else picker.drawing.free_name("fault")
+    "rename": lambda pen, pick: pen.rename(
+        pick.kind, pick.name, "H1" if pick.kind == "horizon" else pen.drawing.free_name("fault")
     ),
-    "hide": lambda picker, pick: picker.show(pick.kind, pick.name, not pick.visible),
-    "recolour": lambda picker, pick: picker.recolour(pick.kind, pick.name, "red"),
-    "select": lambda picker, pick: picker.select(pick.kind, pick.name),
-    "delete": lambda picker, pick: picker.delete(pick.kind, pick.name),
-    "load": lambda picker, pick: picker.load(picker.interpretation),
+    "hide": lambda pen, pick: pen.show(pick.kind, pick.name, not pick.visible),
+    "recolour": lambda pen, pick: pen.recolour(pick.kind, pick.name, "red"),
+    "select": lambda pen, pick: pen.select(pick.kind, pick.name),
+    "delete": lambda pen, pick: pen.delete(pick.kind, pick.name),
+    "load": lambda pen, pick: pen.load(pen.interpretation),
 }
 ACTIONS = (
     gestures() | gestures() | gestures() | gestures() | st.tuples(st.sampled_from(sorted(COMMANDS)), st.integers(0, 5))
 )
 
 
-def perform(picker, action):
+def perform(pen, action):
     if action[0] in COMMANDS:
-        if picker.drawing.picks and not (action[0] in ("rename", "delete") and picker.drawing.under_way):
-            COMMANDS[action[0]](picker, picker.drawing.picks[action[1] % len(picker.drawing.picks)])
+        if pen.drawing.picks and not (action[0] in ("rename", "delete") and pen.drawing.under_way):
+            COMMANDS[action[0]](pen, pen.drawing.picks[action[1] % len(pen.drawing.picks)])
         return
     kind, what, modifiers = action
     if kind is Key:
-        consumed = picker.handle(Key(what, modifiers))
+        consumed = pen.handle(Key(what, modifiers))
         assert what != "Tab" or not consumed
         return
     place, aside = what
     if isinstance(place, int):
-        places = [point for pick in picker.drawing.picks for piece in pick.pieces for point in piece]
-        places += [mark.point for mark in picker.cutoffs()]
+        places = [point for pick in pen.drawing.picks for piece in pick.pieces for point in piece]
+        places += [mark.point for mark in pen.cutoffs()]
         place = places[place % len(places)] if places else (300.0, 300.0)
     point = tuple(float(value) for value in np.add(place, aside))
     if kind is click:
-        click(picker, point, modifiers)
+        click(pen, point, modifiers)
     else:
-        picker.handle(kind(point, tuple(VIEW.to_pixels(point).tolist()), modifiers=modifiers))
+        pen.handle(kind(point, tuple(VIEW.to_pixels(point).tolist()), modifiers=modifiers))
 
 
-def check_edit(picker, before, depth, dragging):
+def check_edit(pen, before, depth, dragging):
     """What a gesture did can be undone and made again; it is one edit, or two where it ended a drag as well."""
-    edits = len(picker._past) - depth
+    edits = len(pen._past) - depth
     assert edits <= 1 + dragging
-    if edits > 0 and not picker.state.drag:
-        after, future = picker.state, len(picker._future)
-        assert all(picker.undo() for _ in range(edits))
-        assert picker.drawing == before
-        assert all(picker.redo() for _ in range(edits))
-        assert (picker.drawing, picker.state.selection, len(picker._future)) == (after.drawing, after.selection, future)
+    if edits > 0 and not pen.state.drag:
+        after, future = pen.state, len(pen._future)
+        assert all(pen.undo() for _ in range(edits))
+        assert pen.drawing == before
+        assert all(pen.redo() for _ in range(edits))
+        assert (pen.drawing, pen.state.selection, len(pen._future)) == (after.drawing, after.selection, future)
 
 
-def check_state(picker):
-    state, section = picker.state, picker.view.section
+def check_state(pen):
+    state, section = pen.state, pen.view.section
     assert state.mode in MODES
     assert state.drawing.under_way is None or state.mode == state.drawing.under_way.kind
     for pick in state.drawing.picks:
@@ -756,41 +756,41 @@ def check_state(picker):
         assert section.contains(np.vstack(pick.pieces)).all()
     assert len(set(state.drawing.names("fault"))) == len(state.drawing.names("fault"))
     assert len(set(state.drawing.names("horizon"))) == len(state.drawing.names("horizon"))
-    bad = {name for name, _ in picker.problems}
+    bad = {name for name, _ in pen.problems}
     drawn = {(pick.kind, pick.name) for pick in state.drawing.picks}
-    usable = {("fault", pick.name) for pick in picker.interpretation.faults}
-    usable |= {("horizon", pick.name) for pick in picker.interpretation.horizons}
+    usable = {("fault", pick.name) for pick in pen.interpretation.faults}
+    usable |= {("horizon", pick.name) for pick in pen.interpretation.horizons}
     assert usable <= drawn
     assert {name for _, name in drawn - usable} <= bad
-    for mark in picker.cutoffs():
+    for mark in pen.cutoffs():
         assert np.isfinite(mark.point).all()
     spot = state.selection
     assert spot is None or spot.vertex is None or spot.vertex < len(state.drawing.line(spot))
 
 
 def random_gestures(actions, drawing=None, **options):
-    picker = Picker(VIEW, drawing, **options)
-    start = picker.drawing
+    pen = Pen(VIEW, drawing, **options)
+    start = pen.drawing
     for action in actions:
-        drag, depth, undone = picker.state.drag, len(picker._past), len(picker._future)
-        before = drag.before if drag else picker.drawing
-        perform(picker, action)
-        if len(picker._future) <= undone:
-            check_edit(picker, before, depth, drag is not None)
-        check_state(picker)
+        drag, depth, undone = pen.state.drag, len(pen._past), len(pen._future)
+        before = drag.before if drag else pen.drawing
+        perform(pen, action)
+        if len(pen._future) <= undone:
+            check_edit(pen, before, depth, drag is not None)
+        check_state(pen)
     for _ in range(5):
-        picker.handle(Key("Escape"))
-    assert (picker.state.mode, picker.state.selection, picker.state.drag) == ("look", None, None)
-    assert picker.drawing.under_way is None
-    end, edits = picker.drawing, len(picker._past)
-    while picker.undo():
+        pen.handle(Key("Escape"))
+    assert (pen.state.mode, pen.state.selection, pen.state.drag) == ("look", None, None)
+    assert pen.drawing.under_way is None
+    end, edits = pen.drawing, len(pen._past)
+    while pen.undo():
         pass
-    assert picker.drawing == start
-    while picker.redo():
+    assert pen.drawing == start
+    while pen.redo():
         pass
-    assert picker.drawing == end
+    assert pen.drawing == end
     event(f"{min(edits // 10, 5)}0 edits or more")
-    return picker
+    return pen
 
 
 SOON = settings(
@@ -799,7 +799,7 @@ SOON = settings(
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
-DRAWN = Picker.from_interpretation(VIEW, PICKS).drawing
+DRAWN = Pen.from_interpretation(VIEW, PICKS).drawing
 
 
 @SOON

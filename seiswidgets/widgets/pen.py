@@ -41,11 +41,11 @@ from seiswidgets.widgets.drawing import HORIZON, Drawing, Point, Points, Spot
 from seiswidgets.widgets.gestures import DoubleClick, Gesture, Key, Move, Press, Release, ToPixels
 from seiswidgets.widgets.keyboard import key_pressed
 from seiswidgets.widgets.mouse import double_clicked, moved, pressed
-from seiswidgets.widgets.pickerstate import LOOK, MODES, PickerState, known
+from seiswidgets.widgets.penstate import LOOK, MODES, PenState, known
 from seiswidgets.widgets.view import View
 
 
-class Picker:
+class Pen:
     """The state machine: ``handle`` gestures, read ``state``.
 
     Parameters
@@ -68,13 +68,13 @@ class Picker:
         follow: Callable[[Point, Point], np.ndarray] | None = None,
     ):
         self.view, self.snap, self.follow = view, snap, follow
-        self.state = PickerState(drawing=drawing or Drawing())
+        self.state = PenState(drawing=drawing or Drawing())
         self._past, self._future = [], []
         self.to_pixels = view.to_pixels
 
     @classmethod
-    def from_interpretation(cls, view: View, interpretation: Interpretation, fixed=None, **options) -> "Picker":
-        """A picker that starts with these picks."""
+    def from_interpretation(cls, view: View, interpretation: Interpretation, fixed=None, **options) -> "Pen":
+        """A pen that starts with these picks."""
         return cls(view, Drawing().with_interpretation(interpretation).held(fixed), **options)
 
     @property

@@ -1,4 +1,4 @@
-"""All that a picker shows, as one frozen value."""
+"""All that a pen shows, as one frozen value."""
 
 from dataclasses import dataclass, field, replace
 
@@ -39,8 +39,8 @@ class Drag:
 
 
 @dataclass(frozen=True)
-class PickerState:
-    """All that a picker shows.
+class PenState:
+    """All that a pen shows.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class PickerState:
     drag: Drag | None = None
 
 
-def known(state: PickerState) -> Spot | None:
+def known(state: PenState) -> Spot | None:
     """What is selected and there: the piece or pick where the vertex cannot be changed now, None where all is gone."""
     spot, drawing = state.selection, state.drawing
     if spot is None:
