@@ -131,6 +131,18 @@ class Drawing:
         """With more vertices at the end of the line under way."""
         return replace(self, under_way=replace(self.under_way, points=self.under_way.points + _points(points)))
 
+    def continued(self, stretches) -> "Drawing":
+        """With the line under way led on along stretches, the first of which starts where it ends.
+
+        A horizon is broken between two stretches: each makes a piece of its own. A fault goes straight on.
+        """
+        first, *others = stretches
+        drawing = self.extended(first[1:])
+        for stretch in others:
+            done, name = drawing.finished() if self.under_way.kind == HORIZON else (drawing, None)
+            drawing = done.begun(HORIZON, stretch[0], name).extended(stretch[1:]) if name else drawing.extended(stretch)
+        return drawing
+
     def finished(self) -> tuple["Drawing", str | None]:
         """With the line under way made a pick, or a piece of one; and its name.
 

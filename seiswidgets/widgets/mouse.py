@@ -65,7 +65,7 @@ def _dragged(pen, drag, event):
 
 def _toggle_held(pen, event):
     held = pen.drawing.fixed
-    again = held is not None and vertex_under(event, [held], pen.to_pixels)
+    again = held is not None and vertex_under(event, [held], pen.sight.to_pixels)
     pen.hold(None if again else event.point)
 
 
@@ -108,7 +108,7 @@ def _hold_line(pen, event):
     found = [
         (hit[2], replace(spot, vertex=hit[0]), hit[1])
         for spot, points in pen.editable()
-        if (hit := line_under(event, points, pen.to_pixels))
+        if (hit := line_under(event, points, pen.sight.to_pixels))
     ]
     if not found:
         return False
@@ -142,7 +142,7 @@ def _hold(pen, event, spot, base, fault=None):
 def _cutoff_under(pen, event):
     """The cut-off under a press; of the two at one place, that in the wall in which the pointer is."""
     marks = pen.cutoffs()
-    away = [vertex_under(event, [mark.point], pen.to_pixels) for mark in marks]
+    away = [vertex_under(event, [mark.point], pen.sight.to_pixels) for mark in marks]
     near = [(hit[1], mark) for hit, mark in zip(away, marks, strict=True) if hit]
     if not near:
         return None
@@ -156,7 +156,7 @@ def _vertex_spot(pen, event):
     found = [
         (hit[1], replace(spot, vertex=hit[0]))
         for spot, points in pen.editable()
-        if (hit := vertex_under(event, points, pen.to_pixels))
+        if (hit := vertex_under(event, points, pen.sight.to_pixels))
     ]
     return min(found, key=lambda hit: hit[0])[1] if found else None
 
@@ -175,6 +175,6 @@ def _piece_under(pen, event):
         for pick in pen.drawing.picks
         if pick.visible
         for number, points in enumerate(pick.pieces)
-        if (hit := line_under(event, points, pen.to_pixels))
+        if (hit := line_under(event, points, pen.sight.to_pixels))
     ]
     return min(found, key=lambda hit: hit[0])[1] if found else None

@@ -38,10 +38,11 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.widgets.cutoffmarks import CutOff, cut_offs
 from seiswidgets.widgets.drawing import HORIZON, Drawing, Point, Points, Spot
-from seiswidgets.widgets.gestures import DoubleClick, Gesture, Key, Move, Press, Release, ToPixels
+from seiswidgets.widgets.gestures import DoubleClick, Gesture, Key, Move, Press, Release
 from seiswidgets.widgets.keyboard import key_pressed
 from seiswidgets.widgets.mouse import double_clicked, moved, pressed
 from seiswidgets.widgets.penstate import LOOK, MODES, PenState, known
+from seiswidgets.widgets.sight import Sight
 from seiswidgets.widgets.view import View
 
 
@@ -70,7 +71,7 @@ class Pen:
         self.view, self.snap, self.follow = view, snap, follow
         self.state = PenState(drawing=drawing or Drawing())
         self._past, self._future = [], []
-        self.to_pixels = view.to_pixels
+        self.sight = Sight(view)
 
     @classmethod
     def from_interpretation(cls, view: View, interpretation: Interpretation, fixed=None, **options) -> "Pen":
@@ -102,12 +103,12 @@ class Pen:
         """The cut-offs of visible horizons at visible faults."""
         return cut_offs(self.drawing, self.view.section)
 
-    def handle(self, gesture: Gesture, to_pixels: ToPixels | None = None) -> bool:
+    def handle(self, gesture: Gesture, sight: Sight | None = None) -> bool:
         """Do what a gesture asks, and say whether it is consumed; if not, the pane may pan, fit, or let it pass.
 
-        ``to_pixels`` says where points of the original lie in the pane it was made in; by default, in the view.
+        ``sight`` is that of the pane it was made in; by default, the original's. Points are those of the original.
         """
-        self.to_pixels = to_pixels or self.view.to_pixels
+        self.sight = sight or Sight(self.view)
         match gesture:
             case Key():
                 return key_pressed(self, gesture)
@@ -173,7 +174,7 @@ class Pen:
         elif mode == HORIZON and self.follow and not free:
             drawing = self.drawing.extended(self.follow(line.points[-1], point)[1:])
         else:
-            drawing = self.drawing.extended([point])
+            drawing = self.drawing.continued(self.sight.path(line.points[-1], point))
         last = len(drawing.under_way.points) - 1
         self.edit(drawing, Spot(mode, None, 0, last) if select else None)
 

@@ -13,6 +13,7 @@ from seiswidgets.widgets import pen as module
 from seiswidgets.widgets.gestures import DoubleClick, Key, Move, Press, Release
 from seiswidgets.widgets.pen import Pen
 from seiswidgets.widgets.penstate import MODES
+from seiswidgets.widgets.sight import Sight
 from seiswidgets.widgets.snapping import followed, snapped
 from seiswidgets.widgets.view import View
 
@@ -327,11 +328,62 @@ def test_page_keys_and_insert(drawn):
     assert len(pieces(drawn, "H1", "horizon")[0]) == 5
 
 
-def test_a_restored_pane_has_pixels_of_its_own(drawn):
-    drawn.enter("fault")
-    event = Press((451.0, 300.0), (10.0, 20.0))
-    drawn.handle(event, lambda points: np.where(points[:, :1] == 450.0, (12.0, 21.0), np.nan))
-    assert drawn.state.selection.vertex == 1
+# In a pane of the restored section
+
+
+@pytest.fixture(scope="module")
+def slipped():
+    """A case, its restoration, and how a pane of the restored section sees it."""
+    case = sw.synthetic.planar_fault()
+    picks = case.interpretation
+    restored = sw.Restoration(case.section, 60.0).unfault(picks.faults, picks.horizons, fixed=case.fixed)
+    return case, restored, Sight(View(restored.section, 800, 600), restored)
+
+
+def press_in(sight, pen, point):
+    """Press in a pane at a point of its section."""
+    return pen.handle(Press(sight.to_original(point), tuple(sight.view.to_pixels(point))), sight)
+
+
+def test_vertices_are_taken_where_the_restored_pane_shows_them(slipped):
+    case, _, sight = slipped
+    pen = Pen.from_interpretation(View(case.section), case.interpretation)
+    pen.enter("horizon")
+    vertex = case.interpretation.horizons[0].pieces[0][0]
+    (shown,) = sight.to_pane([vertex])
+    assert press_in(sight, pen, shown)
+    assert pen.drawing.line(pen.state.selection)[pen.state.selection.vertex] == tuple(vertex)
+
+
+def test_a_line_across_a_restored_fault_is_drawn_in_pieces_that_end_there(slipped):
+    case, restored, sight = slipped
+    pen = Pen(View(case.section))
+    pen.enter("horizon")
+    x_min, x_max, z_min, z_max = case.section.extent
+    ends = [(x_min + share * (x_max - x_min), z_min + 0.6 * (z_max - z_min)) for share in (0.15, 0.85)]
+    for end in ends:
+        assert press_in(sight, pen, end)
+    pen.finish()
+    (horizon,) = pen.interpretation.horizons
+    assert len(horizon.pieces) == 2
+    np.testing.assert_allclose(
+        restored.to_restored(np.concatenate(horizon.pieces))[:, 1], ends[0][1], atol=0.2 * case.section.dz
+    )
+    assert abs(sw.throw(case.interpretation.faults[0], horizon)) == pytest.approx(
+        abs(sw.throw(case.interpretation.faults[0], case.interpretation.horizons[0])), rel=0.02
+    )
+    pen.undo()  # the name
+    pen.undo()
+    assert len(pen.drawing.under_way.points) == 1
+
+
+def test_nothing_is_drawn_where_the_restored_pane_shows_no_rock(slipped):
+    case, _, sight = slipped
+    pen = Pen(View(case.section))
+    pen.enter("fault")
+    x_min, x_max, z_min, _ = case.section.extent
+    assert not press_in(sight, pen, (x_max + 10 * (x_max - x_min), z_min))
+    assert pen.drawing.under_way is None
 
 
 # The keyboard alone

@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.widgets.sight import Sight
+from seiswidgets.widgets.view import View
+
+
+@pytest.fixture(scope="module")
+def case():
+    return sw.synthetic.planar_fault()
+
+
+@pytest.fixture(scope="module")
+def sight(case):
+    picks = case.interpretation
+    restored = sw.Restoration(case.section, 60.0).unfault(picks.faults, picks.horizons, fixed=case.fixed)
+    return Sight(View(restored.section, 800, 600), restored)
+
+
+def test_the_original_is_seen_as_it_is(case):
+    sight = Sight(View(case.section))
+    line = case.interpretation.faults[0].points
+    np.testing.assert_array_equal(sight.shown(line), line)
+    np.testing.assert_array_equal(sight.path(line[0], line[-1])[0], line[[0, -1]])
+    assert sight.to_original(line[0]) == tuple(line[0])
+
+
+def test_a_line_is_shown_where_its_points_are_restored_to(case, sight):
+    line = case.interpretation.horizons[0].pieces[0][:2]
+    shown = sight.shown(line)
+    shown = shown[np.isfinite(shown).all(axis=1)]
+    ways = np.linspace(0.02, 0.98, 50)[:, None]
+    there = sight.to_pane(line[0] + ways * (line[1] - line[0]))
+    np.testing.assert_allclose(np.interp(there[:, 0], *shown[np.argsort(shown[:, 0])].T), there[:, 1], atol=0.2)
+
+
+def test_a_line_across_a_fault_is_interrupted_there(case, sight):
+    x_min, x_max, z_min, z_max = case.section.extent
+    level = (z_min + z_max) / 2
+    shown = sight.shown([(x_min, level), (x_max, level)])
+    assert np.isnan(shown).all(axis=1).sum() == 2  # one in between and one at the end
+
+
+def test_a_path_and_its_way_back_are_the_straight_line(case, sight):
+    x_min, x_max, z_min, z_max = case.section.extent
+    start, end = ((x_min + share * (x_max - x_min), z_min + 0.5 * (z_max - z_min)) for share in (0.1, 0.9))
+    runs = sight.path(sight.to_original(start), sight.to_original(end))
+    assert len(runs) == 2
+    np.testing.assert_allclose(runs[0][0], sight.to_original(start))
+    np.testing.assert_allclose(runs[-1][-1], sight.to_original(end))
+    back = sight.to_pane(np.concatenate(runs))
+    assert np.isfinite(back).all()
+    np.testing.assert_allclose(back[:, 1], start[1], atol=0.2 * case.section.dz)
