@@ -1,0 +1,298 @@
+"""The restoration app: draw, restore, look."""
+
+import logging
+from base64 import b64encode
+from io import BytesIO
+
+import numpy as np
+from ipywidgets import GridBox, Layout, Tab, VBox
+from matplotlib.figure import Figure
+from traitlets import Any, Bool, Instance, Tuple, link, observe, validate
+
+from seiswidgets import plot
+from seiswidgets.errors import SeiswidgetsError, SettingError
+from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.plan import Plan, Task
+from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.section import Section
+from seiswidgets.geology.weights import Weights
+from seiswidgets.widgets.controls import DisplayControls, SolverControls
+from seiswidgets.widgets.frame import Frame
+from seiswidgets.widgets.histogram import DeformationHistogram
+from seiswidgets.widgets.linkedpanes import LinkedPanes
+from seiswidgets.widgets.picker import Picker
+from seiswidgets.widgets.reports import Reports
+from seiswidgets.widgets.restorer import REST, Restorer
+from seiswidgets.widgets.statusbar import StatusBar
+from seiswidgets.widgets.steplist import StepList
+from seiswidgets.widgets.timeline import Timeline
+from seiswidgets.widgets.weightsliders import WeightSliders
+from seiswidgets.widgets.worker import Worker
+
+FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
+THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
+CHANGED = "Something has changed since: press Restore."
+TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report")
+SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
+
+_log = logging.getLogger(__name__)
+
+
+class RestorationApp(VBox):
+    """Draw faults and horizons on a section, restore it, and look at what that took.
+
+    On the left is the section of today, on the right the restored one; lines can be drawn in either. While something
+    is dragged the section is restored as it moves, on a coarse mesh, and on the full mesh when it comes to rest.
+
+    Parameters
+    ----------
+    section : Section
+    interpretation : Interpretation, optional
+        Picks to start with.
+    fixed : (x, z), optional
+        A point in the block that stays where it is.
+    height : int
+        Of each pane, in css pixels.
+    **settings
+        Initial values of the other attributes.
+
+    Attributes
+    ----------
+    interpretation : Interpretation
+    fixed : (x, z) or None
+    weights : Weights
+    steps : tuple of Step
+        What is done in which order.
+    live : bool
+        Whether every change restores by itself; if not, the button does.
+    restoration : Restoration
+        The newest on the full mesh. All may be set, and observed.
+    panes, picker, histogram, sliders, timeline : LinkedPanes, Picker, DeformationHistogram, WeightSliders, Timeline
+        The parts.
+
+    Raises
+    ------
+    SettingError
+        If a setting is out of its range, or a restoration of another section is set.
+    """
+
+    interpretation = Instance(Interpretation, ())
+    fixed = Any(None, allow_none=True)
+    weights = Instance(Weights, ())
+    steps = Tuple()
+    live = Bool(True)
+    restoration = Instance(Restoration)
+
+    def __init__(
+        self,
+        section: Section,
+        interpretation: Interpretation | None = None,
+        *,
+        fixed: tuple[float, float] | None = None,
+        height: int = 400,
+        **settings,
+    ):
+        settings = {"steps": Plan().steps, "restoration": Restoration(section), **settings}
+        self._ready = self._pressed = False
+        self._make_parts(section, height)
+        super().__init__(self._placed(), **settings)
+        self._restorer = Restorer(self._draw, self.status.tell, self._fail)
+        self._moments = Worker()
+        self._tie_parts()
+        if interpretation is not None:
+            self.interpretation = interpretation
+        self.fixed = fixed
+        self._ready = True
+        self._restore_soon()
+
+    @property
+    def section(self) -> Section:
+        """That is restored."""
+        return self.panes.original.section
+
+    @property
+    def plan(self) -> Plan:
+        """What is done, and with which choices."""
+        return Plan(self.steps, self.weights, self.solving.solver, self.solving.spacing)
+
+    def restore(self) -> None:
+        """Restore on the full mesh now, in the background; what is wrong is said below the panes."""
+        self._pressed = True
+        if self._is_possible():
+            self._restorer.restore(self._task())
+
+    def cancel(self) -> None:
+        """Give up the restoration that is under way; all that was there before stays."""
+        self._restorer.cancel()
+        self._set_outdated(True)
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until all that is under way is done, as a script may want; False if that took too long."""
+        return self._restorer.wait(timeout) and self._moments.wait(timeout)
+
+    def close(self) -> None:
+        """Stop what is under way, and take the app off the screen."""
+        self._restorer.cancel()
+        self._moments.cancel()
+        super().close()
+
+    def _make_parts(self, section, height):
+        self.panes = LinkedPanes(section, height=height)
+        self.picker = Picker(self.panes.original)
+        self.picker.attach(self.panes.restored, self.panes.sight)
+        self.histogram = DeformationHistogram()
+        self.sliders = WeightSliders()
+        self.step_list = StepList(z_unit=section.z_unit)
+        self.solving = SolverControls(section)
+        self.timeline = Timeline()
+        self.status = StatusBar(self.restore, self.cancel)
+        self.reports = Reports()
+
+    def _placed(self):
+        """The parts in their places."""
+        display = DisplayControls(self.panes)
+        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports)
+        tabs = Tab(pages, titles=TABS, layout=Layout(min_width="0"))
+        below = GridBox(
+            [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), tabs],
+            layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
+        )
+        return [self.picker.toolbar, self.status, self.panes, below]
+
+    def _tie_parts(self):
+        for name in ("interpretation", "fixed"):
+            link((self, name), (self.picker, name))
+        link((self, "weights"), (self.sliders, "weights"))
+        link((self, "steps"), (self.step_list, "steps"))
+        link((self, "live"), (self.status, "live"))
+        link((self, "interpretation"), (self.step_list, "interpretation"))
+        link((self.histogram, "brush"), (self.panes, "brush"))
+        self.solving.observe(self._take_change, ("spacing", "solver"))
+        self.picker.observe(self._take_rest, "dragging")
+        self.timeline.observe(self._take_time, "time")
+        self.panes.on_reading(self._mark)
+
+    def _task(self):
+        return Task(self.section, self.interpretation, self.fixed, self.plan)
+
+    @observe("interpretation", "fixed", "weights", "steps", "live")
+    def _take_change(self, change):
+        if self._ready:
+            self._restore_soon()
+
+    def _take_rest(self, change):
+        if self._ready and not change.new and self.live and self._is_possible():
+            self._restorer.restore(self._task())
+
+    def _restore_soon(self):
+        """Restore, if changes do so by themselves: a quick look at once, the whole when things have come to rest."""
+        self._pressed = False
+        if not self._is_possible():
+            return
+        if not self.live:
+            self._restorer.cancel()
+            self._set_outdated(True)
+            self.status.hint(CHANGED)
+            return
+        if self.restoration.stages:
+            self._restorer.glance(self._task())
+        self._restorer.restore(self._task(), REST if self.restoration.stages else 0.0)
+
+    def _is_possible(self):
+        """Whether there is something to restore with; if not, say what to do, and show the section as it is."""
+        drawn = self.interpretation
+        waits = drawn.faults and not drawn.horizons
+        if self._task().steps and not waits:
+            return True
+        self._restorer.cancel()
+        self.status.hint(THEN if waits else FIRST if not drawn.horizons else "")
+        self.picker.complain({})
+        self._draw(*(2 * [None]))
+        return False
+
+    def _draw(self, frame, restoration):
+        """Draw what the restorer has made; nothing stands for the section of today."""
+        if frame is None:
+            restoration = Restoration(self.section)
+            frame = Frame.of(restoration)
+        if restoration is None:
+            self.panes.show(frame)
+        else:
+            self._show_whole(frame, restoration)
+        self._say_all_is_well()
+        self._set_outdated(False)
+        ratio = frame.ratio_before.ratio.ravel() if frame.restoration.stages else []
+        self.histogram.show(ratio)
+
+    def _show_whole(self, frame, restoration):
+        self.panes.show(frame)
+        self._whole = frame
+        self.restoration = self.panes.restoration = restoration
+        self.timeline.labels = [stage.kind for stage in restoration.stages]
+        self.timeline.time = len(restoration.stages)
+        self.reports.show(restoration)
+
+    def _say_all_is_well(self):
+        self.picker.complain({})
+        if self._task().steps:
+            self.status.hint("")
+        self.picker.refresh()
+
+    @observe("restoration")
+    def _take_restoration(self, change):
+        if not self._ready or self.panes.restoration is change.new:
+            return
+        self._restorer.cancel()
+        self._draw(Frame.of(change.new), change.new)
+
+    @validate("restoration")
+    def _valid_restoration(self, proposal):
+        if proposal.value.original is not self.section:
+            raise SettingError("the restoration is of another section; make an app of that one")
+        return proposal.value
+
+    def _fail(self, error):
+        """Say what is wrong: loudly, if it was asked for; as a hint, while picks are still being made."""
+        if not isinstance(error, SeiswidgetsError):
+            _log.error("the restoration failed", exc_info=error)
+            error = f"this should not have happened: {type(error).__name__}: {error}"
+        text = str(error)
+        (self.status.alert if self._pressed else self.status.hint)(text)
+        names = (pick.name for pick in self.picker.pen.drawing.picks)
+        self.picker.complain({name: text for name in names if repr(name) in text})
+        self._set_outdated(True)
+
+    def _set_outdated(self, outdated):
+        change = self.panes.restored.add_class if outdated else self.panes.restored.remove_class
+        change("seiswidgets-outdated")
+
+    def _take_time(self, change):
+        """Show a moment on the way from today to the restored section."""
+        restoration, time = self.restoration, change.new
+        self._moments.cancel()
+        if self.panes.shown.restoration is restoration and time == len(restoration.stages):
+            return
+        if time == len(restoration.stages):
+            self.panes.show(self._whole)
+        else:
+            self.panes.show(Frame.of(restoration.at(time), moving=True))
+        self.picker.refresh()
+
+    def _mark(self, reading):
+        ratio = reading.ratio if reading else np.nan
+        self.histogram.mark = float(ratio) if np.isfinite(ratio) else None
+
+    def _repr_mimebundle_(self, **kwargs):
+        """Beside the app itself a picture of what it shows, for readers without a kernel."""
+        bundle = super()._repr_mimebundle_(**kwargs)
+        return bundle and {**bundle, "image/png": self._picture()}
+
+    def _picture(self):
+        """A PNG of both sections with their picks, in base 64."""
+        sections = [plot.section] + [plot.restoration] * bool(self.restoration.stages)
+        figure = Figure(figsize=(7 * len(sections), 4.2), layout="constrained")
+        for draw, ax in zip(sections, figure.subplots(1, len(sections), squeeze=False)[0], strict=True):
+            draw(self.section if draw is plot.section else self.restoration, self.interpretation, ax)
+        file = BytesIO()
+        figure.savefig(file, format="png", dpi=80)
+        return b64encode(file.getvalue()).decode()

@@ -1,0 +1,218 @@
+"""Draw faults and horizons on a section: a pane, its tools, and the list of what is picked."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from ipywidgets import Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
+from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
+
+from seiswidgets.errors import SettingError
+from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.section import Section
+from seiswidgets.widgets.canvas import LOCK
+from seiswidgets.widgets.drawing import HORIZON
+from seiswidgets.widgets.gestures import Gesture, Key, Press, Release
+from seiswidgets.widgets.pane import SectionPane
+from seiswidgets.widgets.pen import Pen
+from seiswidgets.widgets.penstate import BLOCK, LOOK, MODES
+from seiswidgets.widgets.pickslist import PicksList
+from seiswidgets.widgets.sight import Sight
+from seiswidgets.widgets.sketch import marks, rubber, strokes
+from seiswidgets.widgets.snapping import EVENTS, followed, snapped
+from seiswidgets.widgets.ties import tie
+
+OFF = "off"
+ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
+KEYS = (
+    *("Enter", "Escape", "Delete", "Backspace", "Insert", "PageUp", "PageDown", " "),
+    *"lfhbiLFHBI",
+    *ARROWS,
+    *(f"Ctrl+{key}" for key in (*ARROWS, "z", "Z", "y", "Y")),
+)
+MODE_NAMES = {
+    LOOK: ("Look", "eye", "look, zoom and pan; select a line by clicking on it (L)"),
+    "fault": ("Fault", "bolt", "click along a fault; double click or Enter finishes it (F)"),
+    HORIZON: ("Horizon", "minus", "click along a horizon; double click or Enter finishes a piece of it (H)"),
+    BLOCK: ("Hold", "thumb-tack", "click into the block that must stay where it is; again to let it go (B)"),
+}
+
+
+class Picker(VBox):
+    """A section on which faults and horizons are drawn; every edit can be undone.
+
+    The modes are look, fault, horizon, and hold. In fault and horizon mode a click adds a vertex, a double click or
+    Enter finishes the line, Escape drops it; a vertex or a cut-off is dragged, and removed by Ctrl-click or Delete.
+    The whole can be done by keyboard: L, F, H, B choose the mode, Enter shows a cursor which the arrows move, Space
+    puts a vertex there. The module `seiswidgets.widgets.pen` has the table of all gestures.
+
+    Parameters
+    ----------
+    section : Section or SectionPane
+        What is drawn on, or the pane that shows it.
+    **settings
+        Initial values of the attributes.
+
+    Attributes
+    ----------
+    interpretation : Interpretation
+        What is drawn; may be set, which can be undone.
+    fixed : (x, z) or None
+        A point in the block that is held.
+    mode : {"look", "fault", "horizon", "block"}
+    snap : {"off", "peak", "trough", "zero-up", "zero-down"}
+        The event that a horizon's vertices snap to.
+    window : float
+        How many samples they may move.
+    follow : bool
+        Whether the line between two clicks follows the event.
+    dragging : bool
+        Whether something is being dragged.
+    """
+
+    interpretation = Instance(Interpretation, ())
+    fixed = Any(None, allow_none=True)
+    mode = Enum(MODES, LOOK)
+    snap = Enum((OFF, *EVENTS), OFF)
+    window = Float(5.0)
+    follow = Bool(False)
+    dragging = Bool(False)
+
+    def __init__(self, section: Section | SectionPane, **settings):
+        self.pane = section if isinstance(section, SectionPane) else SectionPane(section)
+        self.pen = Pen(self.pane.view)
+        self._panes, self._grip, self._complaints, self._quiet = [], None, {}, False
+        self.list = PicksList(self.pen, self.refresh)
+        self.toolbar = self._made_toolbar()
+        super().__init__([self.toolbar, self.pane, self.list])
+        self.pane.observe(self._take_view, "view")
+        self.attach(self.pane, lambda: Sight(self.pane.view))
+        for name, value in settings.items():
+            setattr(self, name, value)
+
+    def attach(self, pane: SectionPane, sight: Callable[[], Sight]) -> None:
+        """Draw in a further pane too, which shows the section in a way of its own."""
+        self._panes.append((pane, sight))
+        pane.take_keys(KEYS)
+        pane.on_gesture(lambda gesture: self._handle(gesture, sight))
+        self.refresh()
+
+    def complain(self, complaints: dict[str, str]) -> None:
+        """Say beside picks, by their names, what is wrong with them."""
+        self._complaints = dict(complaints)
+        self.list.update(self._wrong())
+
+    def refresh(self) -> None:
+        """Show what the pen holds, everywhere."""
+        with LOCK:
+            cutoffs = self.pen.cutoffs()
+            for pane, sight in self._panes:
+                seen = sight()
+                pane.draw_lines(strokes(self.pen, seen))
+                pane.draw_marks(marks(self.pen, seen, cutoffs))
+                pane.rubber = rubber(self.pen, seen)
+            self.list.update(self._wrong())
+            self._undo.disabled, self._redo.disabled = not self.pen.can_undo, not self.pen.can_redo
+            self._finish.disabled = self.pen.drawing.under_way is None
+            self._tell()
+
+    def _tell(self):
+        """Let the traits follow the pen."""
+        self._quiet = True
+        try:
+            self.mode, self.dragging = self.pen.state.mode, self.pen.state.drag is not None
+            self.fixed, self.interpretation = self.pen.drawing.fixed, self.pen.interpretation
+        finally:
+            self._quiet = False
+
+    def _wrong(self):
+        return {**self._complaints, **dict(self.pen.problems)}
+
+    def _handle(self, gesture: Gesture, sight):
+        """Let the pen do what a gesture asks; during a drag, as the pane was when it began."""
+        seen = self._grip or sight()
+        if not isinstance(gesture, Key):
+            gesture = replace(gesture, point=seen.to_original(gesture.point))
+        before = self.pen.state
+        used = self.pen.handle(gesture, seen)
+        if isinstance(gesture, Press):
+            self._grip = seen if self.pen.state.drag else None
+        elif isinstance(gesture, Release):
+            self._grip = None
+        if self.pen.state != before:
+            self.refresh()
+        return used
+
+    def _take_view(self, change):
+        self.pen.view = self.pane.view
+
+    @validate("fixed")
+    def _valid_fixed(self, proposal):
+        if proposal.value is None:
+            return None
+        point = np.asarray(proposal.value, float)
+        if point.shape != (2,) or not np.isfinite(point).all():
+            raise SettingError(f"fixed must be a point (x, z) or None, but is {proposal.value!r}")
+        return tuple(point.tolist())
+
+    @observe("interpretation", "fixed", "mode")
+    def _take(self, change):
+        if self._quiet:
+            return
+        if change.name == "interpretation":
+            self.pen.load(change.new)
+        elif change.name == "fixed":
+            self.pen.hold(change.new)
+        else:
+            self.pen.enter(change.new)
+        self.refresh()
+
+    @observe("snap", "window", "follow")
+    def _set_snapping(self, change):
+        section, event, window = self.pane.section, self.snap, self.window
+        self.pen.snap = self.pen.follow = None
+        if event != OFF:
+            self.pen.snap = lambda point: snapped(section, point, event, window)
+            if self.follow:
+                self.pen.follow = lambda start, end: followed(section, start, end, event, max(20.0, 4 * window))
+
+    def _made_toolbar(self):
+        modes = ToggleButtons(
+            options=[(name, mode) for mode, (name, _, _) in MODE_NAMES.items()],
+            icons=[icon for _, icon, _ in MODE_NAMES.values()],
+            tooltips=[text for _, _, text in MODE_NAMES.values()],
+            style={"button_width": "auto"},
+        )
+        self._undo = _button("undo", "undo (Ctrl+Z)", self.pen.undo, self.refresh)
+        self._redo = _button("repeat", "do again (Ctrl+Y)", self.pen.redo, self.refresh)
+        self._finish = _button("check", "finish the line (Enter)", self.pen.finish, self.refresh)
+        new = _button("plus", "the next line is a horizon of its own (Escape)", self._begin_horizon, self.refresh)
+        snap = Dropdown(
+            options=[("no snapping", OFF), *((f"snap to {event}", event) for event in EVENTS)],
+            tooltip="what the vertices of horizons snap to",
+            layout=Layout(width="150px"),
+        )
+        follow = ToggleButton(
+            icon="magic", tooltip="lines between two clicks follow the event", layout=Layout(width="36px")
+        )
+        for widget, name in ((modes, "mode"), (snap, "snap"), (follow, "follow")):
+            tie(self, name, widget)
+        tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, follow])]
+        return Box(
+            tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 10px")
+        )
+
+    def _begin_horizon(self):
+        self.pen.enter(HORIZON)
+        self.pen.deselect()
+
+
+def _button(icon, tooltip, action, after):
+    def act(_):
+        with LOCK:
+            action()
+            after()
+
+    button = Button(icon=icon, tooltip=tooltip, layout=Layout(width="36px"))
+    button.on_click(act)
+    return button

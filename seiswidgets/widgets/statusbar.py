@@ -1,0 +1,68 @@
+"""The line of the app that starts a restoration, says how far it is, and what is wrong."""
+
+from collections.abc import Callable
+from html import escape
+
+from ipywidgets import HTML, Box, Button, FloatProgress, HBox, Label, Layout, ToggleButton, VBox
+from traitlets import Bool, Unicode
+
+from seiswidgets.widgets.messages import HINT, TROUBLE
+from seiswidgets.widgets.ties import tie
+
+HALF = 4.0  # iterations after which the bar of a step has come half its way
+
+
+class StatusBar(VBox):
+    """Restore, Live, the progress with Cancel, and one line of text.
+
+    Parameters
+    ----------
+    restore, cancel : callable()
+        What the buttons do.
+
+    Attributes
+    ----------
+    live : bool
+        Whether every change restores by itself.
+    text : str
+        What is said.
+    """
+
+    live = Bool(True)
+    text = Unicode()
+
+    def __init__(self, restore: Callable[[], None], cancel: Callable[[], None]):
+        button = Button(description="Restore", icon="play", button_style="primary", tooltip="restore the section now")
+        live = ToggleButton(description="Live", icon="bolt", tooltip="restore by itself after every change")
+        self._bar = FloatProgress(min=0, max=1, layout=Layout(width="120px"))
+        self._label = Label(layout=Layout(width="290px"))
+        self._cancel = Button(description="Cancel", icon="stop", tooltip="give up the restoration that is under way")
+        for widget in (button, live, self._cancel):
+            widget.layout = Layout(width="auto")
+        self._progress = HBox([self._bar, self._label, self._cancel], layout=Layout(visibility="hidden"))
+        self._line = HTML(layout=Layout(min_height="1.4em"))
+        button.on_click(lambda _: restore())
+        self._cancel.on_click(lambda _: cancel())
+        tools = Box([button, live, self._progress], layout=Layout(flex_flow="row wrap", align_items="center"))
+        super().__init__([tools, self._line])
+        tie(self, "live", live)
+
+    def tell(self, progress) -> None:
+        """Show how far a restoration is; None when none is under way."""
+        self._progress.layout.visibility = "hidden" if progress is None else "visible"
+        if progress is None:
+            return
+        self._bar.value = (progress.step + progress.iteration / (progress.iteration + HALF)) / progress.steps
+        self._label.value = f"{progress.kind}: iteration {progress.iteration}, energy {progress.energy:.3g} m²"
+
+    def hint(self, text: str) -> None:
+        """Say what to do next."""
+        self._say(HINT, text)
+
+    def alert(self, text: str) -> None:
+        """Say what is wrong."""
+        self._say(TROUBLE, text)
+
+    def _say(self, look, text):
+        self.text = text
+        self._line.value = look.format(escape(text))
