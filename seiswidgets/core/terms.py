@@ -120,8 +120,8 @@ class EdgeLength:
         return self._vectors(self.rest)[1]
 
     def _vectors(self, vertices):
-        vectors = vertices[self.edges[:, 0]] - vertices[self.edges[:, 1]]
-        lengths = np.hypot(*vectors.T)
+        vectors = vertices.take(self.edges[:, 0], axis=0) - vertices.take(self.edges[:, 1], axis=0)
+        lengths = np.sqrt(vectors[:, 0] ** 2 + vectors[:, 1] ** 2)
         return vectors / np.maximum(lengths, np.finfo(float).tiny)[:, None], lengths
 
     @cached_property
