@@ -10,10 +10,12 @@ from shapely import LineString
 from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.core.rigid import part_of_motion
 from seiswidgets.core.weld import outline
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.parts import parts, split_piece
 from seiswidgets.geology.report import Report
+from seiswidgets.geology.solving import vertex_masses
 
 PERCENTS = (1, 50, 99)
 FINE, PLACES = 0.25, 64  # a line is carried at places a quarter of the spacing apart, and at so many at least
@@ -37,6 +39,8 @@ class Stage:
         What the step started from.
     found : Report
         What the solver reached; ``report`` adds what asks for the outline.
+    whole : Stage, optional
+        The step that this is only a part of.
     """
 
     kind: str
@@ -45,6 +49,7 @@ class Stage:
     faults: tuple[LineString, ...]
     ground: Ground
     found: Report
+    whole: "Stage | None" = None
 
     def __post_init__(self):
         self.vertices.setflags(write=False)
@@ -60,6 +65,8 @@ class Stage:
 
         Made when it is first read: the overlap takes longer than a picture that follows the mouse may wait.
         """
+        if self.whole is not None:
+            return self.whole.report
         areas = triangle_areas(self.vertices, self.mesh.triangles)
         overlap, unmet = max(0.0, float(areas.sum() - self.outline.area)), self.found.unmet
         if overlap > self.ground.slack * self.spacing:
@@ -71,6 +78,12 @@ class Stage:
         centres = self.vertices[self.mesh.triangles].mean(axis=1)
         covered = self.map.target_finder(centres) != np.arange(len(centres))
         return f", as near {self.ground.where(centres[covered][0])}" if covered.any() else ""
+
+    def part(self, share: float) -> "Stage":
+        """The step at a share of its way, from 0 to 1."""
+        masses = vertex_masses(self.mesh)
+        vertices = part_of_motion(self.mesh.vertices, self.vertices, self.mesh.blocks, masses, share)
+        return replace(self, vertices=vertices, whole=self)
 
     @cached_property
     def outline(self):
