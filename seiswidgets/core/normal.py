@@ -7,7 +7,7 @@ from seiswidgets.core.terms import CONSTANT, MOVING
 
 
 class Gram:
-    """J^T J of a Jacobian: its places in the lower triangle, and its numbers for new numbers in J.
+    """The products that J^T J of a Jacobian is the sum of, and where in its lower triangle each belongs.
 
     A place is the key column * size + row. Columns of J that are not among the unknowns are left out.
     """
@@ -17,24 +17,27 @@ class Gram:
         self._row = np.repeat(np.arange(jacobian.shape[0]), np.diff(jacobian.indptr))[self.first]
         one, other = unknown[jacobian.indices[self.first]], unknown[jacobian.indices[self.second]]
         inner = (one >= 0) & (other >= 0)
-        self.first, self.second, self._row = self.first[inner], self.second[inner], self._row[inner]
-        one, other = one[inner], other[inner]
-        keys = np.minimum(one, other) * size + np.maximum(one, other)
-        self.keys = _distinct(keys)
-        self.place = np.searchsorted(self.keys, keys)
+        if not inner.all():
+            self.first, self.second, self._row = self.first[inner], self.second[inner], self._row[inner]
+            one, other = one[inner], other[inner]
+        self.keys = np.minimum(one, other) * size + np.maximum(one, other)
 
-    def numbers(self, data, factor=None):
-        """The entries of J^T J at ``keys`` when ``data`` are those of J; of J^T diag(factor) J if that is given."""
+    def products(self, data, factor=None):
+        """The products, one a key, when ``data`` are the entries of J; of J^T diag(factor) J if that is given."""
         products = data[self.first] * data[self.second]
         if factor is not None:
             products *= factor[self._row]
-        return np.bincount(self.place, products, minlength=len(self.keys))
+        return products
 
 
-def _distinct(keys):
-    """The different keys in order: `np.unique`, but by sorting, which is several times faster for these."""
-    keys = np.sort(keys)
-    return keys[np.append(True, keys[1:] != keys[:-1])] if len(keys) else keys
+def _numbered(keys):
+    """The different keys in order, and the place of each key among them: `np.unique`, several times faster."""
+    order = np.argsort(keys)
+    keys = keys[order]
+    new = np.append(True, keys[1:] != keys[:-1])[: len(keys)]
+    place = np.empty(len(keys), np.int64)
+    place[order] = np.cumsum(new) - 1
+    return keys[new], place
 
 
 def _pairs_within_rows(pointers):
@@ -72,21 +75,19 @@ class NormalEquations:
         self.size = int(coordinates.sum())
         self._unknown = np.where(coordinates, np.cumsum(coordinates) - 1, -1)
         self._coordinates = np.flatnonzero(coordinates)
-        self._gram = {}
-        self._constant = {}
-        diagonal = np.arange(self.size) * (self.size + 1)
-        keys = [diagonal]
-        for number, term in enumerate(terms):
-            if term.pattern == MOVING:
-                continue
-            jacobian = term.jacobian(vertices)
-            self._gram[number] = Gram(jacobian, self._unknown, self.size)
-            keys.append(self._gram[number].keys)
-            if term.pattern == CONSTANT:
-                self._constant[number] = jacobian
+        steady = {number: term for number, term in enumerate(terms) if term.pattern != MOVING}
+        jacobians = {number: term.jacobian(vertices) for number, term in steady.items()}
+        self._gram = {number: Gram(jacobian, self._unknown, self.size) for number, jacobian in jacobians.items()}
+        self._constant = {number: jacobians[number] for number, term in steady.items() if term.pattern == CONSTANT}
         self.factorisations = self.analyses = 0
         self._ordering = None
-        self._set_pattern(_distinct(np.concatenate(keys)))
+        keys = [gram.keys for gram in self._gram.values()]
+        distinct, place = _numbered(np.concatenate([*keys, np.arange(self.size) * (self.size + 1)]))  # and the diagonal
+        self._place = dict(zip(self._gram, np.split(place, np.cumsum([len(key) for key in keys])), strict=False))
+        self._set_pattern(distinct)
+        self._unchanging = np.zeros(len(distinct))
+        for number, jacobian in self._constant.items():
+            self._unchanging += self._numbers_of(number, jacobian.data)
 
     def _set_pattern(self, keys):
         self._keys = keys
@@ -96,10 +97,11 @@ class NormalEquations:
         self._cholesky = Cholesky(rows, pointers, self._ordering)
         self._ordering = self._cholesky.ordering
         self.analyses += 1
-        self._place = {number: np.searchsorted(keys, gram.keys) for number, gram in self._gram.items()}
-        self._unchanging = np.zeros(len(keys))
-        for number, jacobian in self._constant.items():
-            self._unchanging[self._place[number]] += self._gram[number].numbers(jacobian.data)
+
+    def _numbers_of(self, number, data, factor=None):
+        """What a steady term adds to the matrix."""
+        products = self._gram[number].products(data, factor)
+        return np.bincount(self._place[number], products, minlength=len(self._keys))
 
     def at(self, terms, vertices):
         """Take in the residuals and Jacobians at these positions.
@@ -122,21 +124,26 @@ class NormalEquations:
         self._numbers = self._unchanging.copy()
         self._stretched, self._shortened = np.zeros((2, len(self._keys)))
         for number, jacobian in steady:
-            gram, place = self._gram[number], self._place[number]
-            self._numbers[place] += gram.numbers(jacobian.data)
+            self._numbers += self._numbers_of(number, jacobian.data)
             if hasattr(terms[number], "curvature"):
                 data, factor = terms[number].curvature(vertices)
-                self._stretched[place] += gram.numbers(data, np.maximum(factor, 0))
-                self._shortened[place] += gram.numbers(data, np.minimum(factor, 0))
+                self._stretched += self._numbers_of(number, data, np.maximum(factor, 0))
+                self._shortened += self._numbers_of(number, data, np.minimum(factor, 0))
         for gram, data in grams:
-            self._numbers[np.searchsorted(self._keys, gram.keys)] += gram.numbers(data)
+            np.add.at(self._numbers, np.searchsorted(self._keys, gram.keys), gram.products(data))
 
     def _widen(self, wanted):
-        keys = _distinct(np.concatenate([np.empty(0, np.int64), *wanted]))
+        keys = np.concatenate([np.empty(0, np.int64), *wanted])
         place = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
-        new = keys[self._keys[place] != keys]
-        if len(new):
-            self._set_pattern(_distinct(np.concatenate([self._keys, new])))
+        missing = keys[self._keys[place] != keys]
+        if not len(missing):
+            return
+        wider, _ = _numbered(np.concatenate([self._keys, missing]))
+        shifted = np.searchsorted(wider, self._keys)
+        self._place = {number: shifted[place] for number, place in self._place.items()}
+        unchanging, self._unchanging = self._unchanging, np.zeros(len(wider))
+        self._unchanging[shifted] = unchanging
+        self._set_pattern(wider)
 
     def step(self, damping: float, bending: float | None = None):
         """The damped step, shape (n, 2); 0 for what is held.

@@ -97,7 +97,7 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     while not converged and iteration < max_iterations:
         equations.at(terms, vertices)
         curved = len(energies) > 1 and energies[-1] > SLOW * energies[-2]
-        moved, full = _descent(equations, terms, vertices, triangles, caution, tolerance, curved)
+        moved, full = _descent(equations, terms, vertices, energies[-1], triangles, caution, tolerance, curved)
         if moved is None:
             break
         converged = full and _farthest(moved - vertices) <= tolerance
@@ -132,12 +132,12 @@ class Caution:
         self.bending = min(1.5 * max(self.bending, LEAST_BENDING), 1.0)
 
 
-def _descent(equations, terms, vertices, triangles, caution, tolerance, curved):
-    """The vertices after a step that lowers the energy, None if there is none; and whether it was full and undamped.
+def _descent(equations, terms, vertices, height, triangles, caution, tolerance, curved):
+    """The vertices after a step to less energy than this height, None if there is none; and if it was full, undamped.
 
     A step within the tolerance is taken as it is: rounding would hide what it gains.
     """
-    allowed = energy(terms, vertices) * (1 + ROUNDING)
+    allowed = height * (1 + ROUNDING)
     while caution.damping <= MOST_DAMPING:
         try:
             step = equations.step(caution.damping, caution.bending if curved else None)

@@ -4,7 +4,7 @@ import numpy as np
 import shapely
 
 from seiswidgets.core.contact import Contact
-from seiswidgets.core.mapping import TriangleFinder
+from seiswidgets.core.finder import TriangleFinder
 from seiswidgets.core.mesh import Mesh, triangle_areas
 
 
@@ -144,8 +144,17 @@ def _fan(mesh, vertices, half_edge, one, two, inner, count):
     return np.column_stack([chain[:-1], chain[1:], np.full(len(chain) - 1, far)]), places, at_rest
 
 
-def outline(mesh: Mesh, vertices, closing: float):
+def outline(mesh: Mesh, vertices, closing: float, finder: TriangleFinder | None = None):
     """What a deformed mesh covers, gaps narrower than twice ``closing`` filled.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    vertices : array, shape (n, 2)
+        After deformation.
+    closing : float
+    finder : TriangleFinder, optional
+        Of the deformed triangles, where there is one.
 
     Returns
     -------
@@ -155,7 +164,8 @@ def outline(mesh: Mesh, vertices, closing: float):
     grid = 2.0**-30 * np.ptp(vertices, axis=0).max()
     faces = shapely.get_parts(shapely.polygonize([shapely.union_all(edges, grid_size=grid)]))
     inside = shapely.get_coordinates(shapely.point_on_surface(faces))
-    covered = shapely.union_all(faces[TriangleFinder(vertices, mesh.triangles)(inside) >= 0])
+    finder = finder or TriangleFinder(vertices, mesh.triangles)
+    covered = shapely.union_all(faces[finder(inside) >= 0])
     style = {"join_style": "mitre", "mitre_limit": 10}
     closed = covered.buffer(closing, **style).buffer(-closing, **style)
     covered = _without_specks(covered, (5 * closing) ** 2)

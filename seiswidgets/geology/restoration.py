@@ -8,15 +8,17 @@ import numpy as np
 import shapely
 from shapely import LineString
 
-from seiswidgets.core.resampling import resampled
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import asked
-from seiswidgets.geology.flattening import flattened, joined
+from seiswidgets.geology.carrying import carried_fault, carried_horizon, carried_point
+from seiswidgets.geology.flattening import flattened
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.picks import Fault, Horizon
+from seiswidgets.geology.picture import picture
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solving import GAUSS_NEWTON, Options
 from seiswidgets.geology.stage import Stage
+from seiswidgets.geology.strain import area_ratio_at, even_points
 from seiswidgets.geology.unfaulting import unfaulted
 from seiswidgets.geology.weights import Weights
 
@@ -118,9 +120,9 @@ class Restoration:
         faults, horizons = asked.picks(faults, Fault, "fault"), asked.picks(horizons, Horizon, "horizon")
         if not faults:
             raise PickError("there is no fault to unfault; give at least one")
-        held = None if fixed is None else self._held(fixed)
-        fault_points = {name: self._fault(fault) for name, fault in faults.items()}
-        pieces = {name: self._pieces(horizon) for name, horizon in horizons.items()}
+        held = None if fixed is None else carried_point(self.original, self.stages, fixed)
+        fault_points = {name: carried_fault(self.original, self.stages, fault) for name, fault in faults.items()}
+        pieces = {name: carried_horizon(self.original, self.stages, horizon) for name, horizon in horizons.items()}
         stage = unfaulted(self.ground, fault_points, pieces, held, options)
         return replace(self, stages=(*self.stages, stage))
 
@@ -154,7 +156,8 @@ class Restoration:
         (horizon,) = asked.picks([horizon], Horizon, "horizon").values()
         if datum is not None:
             datum = asked.number("datum", datum) * self.original.metres[1]
-        stage = flattened(self.ground, horizon.name, self._pieces(horizon), datum, options)
+        pieces = carried_horizon(self.original, self.stages, horizon)
+        stage = flattened(self.ground, horizon.name, pieces, datum, options)
         return replace(self, stages=(*self.stages, stage))
 
     @cached_property
@@ -189,67 +192,94 @@ class Restoration:
         """
         return self.picture(order=3)
 
-    def picture(self, order: int = 3) -> Section:
-        """The restored section with a choice of interpolation: 1 is linear and quick, 3 is cubic."""
-        if not self.stages:
-            return self.original
-        section = self.original
-        x, z = self._lattice()
-        places = self.stages[-1].map.inverse_on_grid(x * section.metres[0], z * section.metres[1]).reshape(-1, 2)
-        for stage in reversed(self.stages[:-1]):
-            places = stage.map.inverse(places)
-        columns, rows = ((section.from_rock(places) - (section.x0, section.z0)) / (section.dx, section.dz)).T
-        shape = len(z), len(x)
-        amplitude = resampled(section.amplitude, columns.reshape(shape), rows.reshape(shape), order)
-        return replace(section, amplitude=amplitude, x0=x[0], z0=z[0])
+    def picture(self, order: int = 3, cells: int | None = None) -> Section:
+        """The restored section with a choice of interpolation, and of how many samples it has.
 
-    def _lattice(self):
-        """Positions of the restored section's traces and samples, on the original's lattice."""
-        section = self.original
-        low, high = (
-            (section.from_rock(corner(self.stages[-1].vertices, axis=0)) - (section.x0, section.z0))
-            / (section.dx, section.dz)
-            for corner in (np.min, np.max)
-        )
-        first, last = np.ceil(low - 1e-6), np.floor(high + 1e-6)
-        thin = last <= first  # a section has two traces and two samples at least
-        first, last = np.where(thin, np.floor(low), first), np.where(thin, np.floor(low) + 1, last)
-        x, z = (np.arange(a, b + 1) for a, b in zip(first, last, strict=True))
-        return section.x0 + section.dx * x, section.z0 + section.dz * z
+        Parameters
+        ----------
+        order : int
+            1 is linear and quick, 3 is cubic.
+        cells : int, optional
+            At most so many samples: only every second, third, ... sample of the lattice is made, such that ``dx`` and
+            ``dz`` grow alike. For pictures that follow the mouse: nothing is smoothed before it is thinned out.
+
+        Raises
+        ------
+        SettingError
+            If the order is neither, or there would be fewer than 2 x 2 cells.
+        """
+        cells = None if cells is None else asked.whole("cells", cells, least=4)
+        if not self.stages and cells is None:
+            return self.original
+        return picture(self.original, self.stages, order, cells)
+
+    def at(self, time: float) -> "Restoration":
+        """The restoration at a moment: 0 is today's section, 1 the section after the first stage, and so on.
+
+        In between, a stage is part of the way: each block turns by its share of the angle, about the same pole, and
+        what else it does to its shape it does evenly. The report is that of the whole stage.
+
+        Raises
+        ------
+        SettingError
+            If the time is not between 0 and the number of stages.
+        """
+        time, count = asked.number("time", time), len(self.stages)
+        if not 0 <= time <= count:
+            raise SettingError(f"time must be between 0 (today) and {count} (after the last stage), but is {time:g}")
+        whole = int(time)
+        part = () if time == whole else (self.stages[whole].part(time - whole),)
+        return replace(self, stages=self.stages[:whole] + part)
+
+    def area_ratio_at(self, points, stage: int | None = None) -> np.ndarray:
+        """Initial over final area at points of the original section, NaN outside; shape (n,).
+
+        Parameters
+        ----------
+        points : array, shape (n, 2)
+            In the section's units.
+        stage : int, optional
+            The stage that counts, from 0; all of them together if left out.
+
+        Raises
+        ------
+        SettingError
+            If there is no such stage.
+        """
+        only = None if stage is None else asked.index("stage", stage, len(self.stages))
+        return area_ratio_at(self.stages, self.original.to_rock(asked.points(points)), only)
+
+    def area_ratio_sampled(self, count: int = 20_000, stage: int | None = None) -> np.ndarray:
+        """The area ratio at about so many places, each of which stands for the same area of the original section.
+
+        What a histogram needs. The places are the middles of equal cells; those that no triangle holds are left out.
+        Parameters and errors are those of ``area_ratio_at``.
+        """
+        ratio = self.area_ratio_at(even_points(self.original, asked.whole("count", count, least=1)), stage)
+        return ratio[np.isfinite(ratio)]
+
+    @property
+    def maps_to_restored(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """What ``to_restored`` does, stage by stage, for programs that carry points themselves.
+
+        Each is ``(source, target, triangles)``: vertices before and after, shape (n, 2), in the section's units, and
+        corners of the triangles, shape (m, 3). A point keeps its barycentric coordinates in the triangle that holds it.
+        """
+        unit = self.original.from_rock
+        return [(unit(stage.mesh.vertices), unit(stage.vertices), stage.mesh.triangles) for stage in self.stages]
+
+    @property
+    def maps_to_original(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """What ``to_original`` does, stage by stage; as ``maps_to_restored``."""
+        return [(target, source, triangles) for source, target, triangles in reversed(self.maps_to_restored)]
 
     def carried(self, pick: Fault | Horizon) -> list[np.ndarray]:
         """A fault or a horizon as it lies after all stages: its lines, each of shape (n, 2), in the section's units."""
-        lines = [LineString(self._fault(pick))] if isinstance(pick, Fault) else self._pieces(pick)
+        if isinstance(pick, Fault):
+            lines = [LineString(carried_fault(self.original, self.stages, pick))]
+        else:
+            lines = carried_horizon(self.original, self.stages, pick)
         return [self.original.from_rock(shapely.get_coordinates(line)) for line in lines]
-
-    def _fault(self, fault):
-        lines = [LineString(asked.rock_points(self.original, fault.points, f"fault {fault.name!r}"))]
-        for stage in self.stages:
-            lines = [moved for line in lines for moved in stage.carried_fault(line)]
-        if not lines:
-            raise PickError(
-                f"nothing is left of fault {fault.name!r} after the stages before; it lies outside the rock"
-            )
-        return np.concatenate([shapely.get_coordinates(line) for line in lines])
-
-    def _pieces(self, horizon):
-        lines = [
-            LineString(asked.rock_points(self.original, piece, f"piece {number} of horizon {horizon.name!r}"))
-            for number, piece in enumerate(horizon.pieces, 1)
-        ]
-        for stage in self.stages:
-            lines = joined(stage.carried_horizon(lines), stage.spacing)
-        return lines
-
-    def _held(self, fixed):
-        try:
-            point = asked.points(fixed).reshape(1, 2)
-        except ValueError:
-            raise PickError(f"fixed must be one point (x, z), but is {fixed!r}") from None
-        point = asked.rock_points(self.original, point, "fixed")
-        for stage in self.stages:
-            point = stage.map.forward(point)
-        return point[0]
 
     def __repr__(self):
         stages = ", ".join(stage.kind for stage in self.stages) or "no stage yet"

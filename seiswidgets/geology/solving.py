@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from seiswidgets.core.mapping import TriangleFinder
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.core.solver import Solution, fixed_point, gauss_newton
 from seiswidgets.errors import FlippedError, SettingError
@@ -96,7 +95,7 @@ def _warm(mesh, start, free, earlier):
     centres = np.repeat(mesh.vertices[mesh.triangles].mean(axis=1), 3, axis=0)
     inside = mesh.vertices.copy()  # a vertex on a cut belongs to the side where its triangles are
     inside[corners] += 1e-3 * (centres - mesh.vertices[corners])
-    moved = earlier.map.forward(mesh.vertices, TriangleFinder(earlier.mesh.vertices, earlier.mesh.triangles)(inside))
+    moved = earlier.map.forward(mesh.vertices, earlier.map.source_finder(inside))
     moved[~free] = mesh.vertices[~free]
     lost = ~np.isfinite(moved).all() or triangle_areas(moved, mesh.triangles).min() <= 0
     return start if lost else moved

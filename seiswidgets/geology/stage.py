@@ -10,9 +10,12 @@ from shapely import LineString
 from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.core.rigid import part_of_motion
 from seiswidgets.core.weld import outline
+from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.parts import parts, split_piece
 from seiswidgets.geology.report import Report
+from seiswidgets.geology.solving import vertex_masses
 
 PERCENTS = (1, 50, 99)
 FINE, PLACES = 0.25, 64  # a line is carried at places a quarter of the spacing apart, and at so many at least
@@ -32,25 +35,60 @@ class Stage:
         Where the mesh's vertices are after it.
     faults : tuple of shapely LineString
         What the mesh is cut along, before the step.
-    spacing : float
-        Of the mesh.
-    report : Report
+    ground : Ground
+        What the step started from.
+    found : Report
+        What the solver reached; ``report`` adds what asks for the outline.
+    whole : Stage, optional
+        The step that this is only a part of.
     """
 
     kind: str
     mesh: Mesh
     vertices: np.ndarray
     faults: tuple[LineString, ...]
-    spacing: float
-    report: Report
+    ground: Ground
+    found: Report
+    whole: "Stage | None" = None
 
     def __post_init__(self):
         self.vertices.setflags(write=False)
 
+    @property
+    def spacing(self) -> float:
+        """Of the mesh, in metres."""
+        return self.ground.spacing
+
+    @cached_property
+    def report(self) -> Report:
+        """What the step has achieved, with a word in it where rock has come to lie on other rock.
+
+        Made when it is first read: the overlap takes longer than a picture that follows the mouse may wait.
+        """
+        if self.whole is not None:
+            return self.whole.report
+        areas = triangle_areas(self.vertices, self.mesh.triangles)
+        overlap, unmet = max(0.0, float(areas.sum() - self.outline.area)), self.found.unmet
+        if overlap > self.ground.slack * self.spacing:
+            unmet = (*unmet, f"room: {overlap:.3g} m² of rock lie on other rock{self._place_of_overlap()}")
+        return replace(self.found, overlap=overlap, unmet=unmet)
+
+    def _place_of_overlap(self):
+        """Where a triangle lies whose centre another triangle holds as well."""
+        centres = self.vertices[self.mesh.triangles].mean(axis=1)
+        covered = self.map.target_finder(centres) != np.arange(len(centres))
+        return f", as near {self.ground.where(centres[covered][0])}" if covered.any() else ""
+
+    def part(self, share: float) -> "Stage":
+        """The step at a share of its way, from 0 to 1."""
+        masses = vertex_masses(self.mesh)
+        vertices = part_of_motion(self.mesh.vertices, self.vertices, self.mesh.blocks, masses, share)
+        return replace(self, vertices=vertices, whole=self)
+
     @cached_property
     def outline(self):
         """What the rock covers after the step, hairline gaps filled: a shapely Polygon or MultiPolygon."""
-        return outline(self.mesh, self.vertices, CLOSED * self.spacing)
+        return outline(self.mesh, self.vertices, CLOSED * self.spacing, self.map.target_finder)
 
     @cached_property
     def map(self) -> PiecewiseAffineMap:
@@ -84,9 +122,7 @@ class Stage:
 
     def _moved(self, line, sideways):
         points = shapely.get_coordinates(line.segmentize(min(FINE * self.spacing, line.length / PLACES)))
-        within = (
-            points.copy()
-        )  # in the triangles that carry the points: the line's end on a fault belongs to its own side
+        within = points.copy()  # a line's end on a fault belongs to the triangles of its own side
         nudge = min(2e-3 * self.spacing, line.length / 4)
         within[[0, -1]] = [line.interpolate(way).coords[0] for way in (nudge, line.length - nudge)]
         along = np.gradient(points, axis=0)
@@ -96,11 +132,11 @@ class Stage:
         return LineString(moved) if len(moved) > 1 else None
 
 
-def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faults=(), unmet=(), **found) -> Stage:
-    """The stage that a solution makes, with its report."""
+def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faults=(), unmet=(), **reported) -> Stage:
+    """The stage that a solution makes."""
     ratio = deformation.area_ratio(mesh, vertices)
     percentiles = deformation.weighted_percentiles(ratio, mesh.areas, PERCENTS)
-    report = Report(
+    found = Report(
         kind=kind,
         picks=picks,
         solver=options.solver,
@@ -116,27 +152,9 @@ def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faul
         x_unit=ground.section.x_unit,
         z_unit=ground.section.z_unit,
         unmet=unmet,
-        **found,
+        **reported,
     )
-    stage = Stage(kind, mesh, vertices, faults, ground.spacing, report)
-    return _with_overlap(stage, ground)
-
-
-def _with_overlap(stage, ground):
-    """The stage, with a word in its report where rock has come to lie on other rock."""
-    areas = triangle_areas(stage.vertices, stage.mesh.triangles)
-    overlap = max(0.0, float(areas.sum() - stage.outline.area))
-    unmet = stage.report.unmet
-    if overlap > ground.slack * ground.spacing:
-        unmet = (*unmet, f"room: {overlap:.3g} m² of rock lie on other rock{_place_of_overlap(stage, ground)}")
-    return replace(stage, report=replace(stage.report, overlap=overlap, unmet=unmet))
-
-
-def _place_of_overlap(stage, ground):
-    """Where a triangle lies whose centre another triangle holds as well."""
-    centres = stage.vertices[stage.mesh.triangles].mean(axis=1)
-    covered = stage.map.target_finder(centres) != np.arange(len(centres))
-    return f", as near {ground.where(centres[covered][0])}" if covered.any() else ""
+    return Stage(kind, mesh, vertices, faults, ground, found)
 
 
 def _energy(solution):

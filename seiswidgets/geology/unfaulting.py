@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seiswidgets.core.contact import Contact, contacts
-from seiswidgets.core.mapping import TriangleFinder
+from seiswidgets.core.finder import triangle_at
 from seiswidgets.core.mesh import Cut
 from seiswidgets.core.rigid import rigid_blocks
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
@@ -165,7 +165,7 @@ def _free(mesh, fixed, ground):
     """Which vertices may move: all, or all but those of the block that holds a point."""
     if fixed is None:
         return np.ones(len(mesh.vertices), bool)
-    triangle = TriangleFinder(mesh.vertices, mesh.triangles)(fixed[None])[0]
+    triangle = triangle_at(mesh.vertices, mesh.triangles, fixed)
     if triangle < 0:
         raise PickError(f"no rock lies at fixed, {ground.where(fixed)}; choose a point inside the block to hold")
     if mesh.blocks.max() == 0:

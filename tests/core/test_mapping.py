@@ -3,7 +3,8 @@ import pytest
 import shapely
 from scipy.spatial import Delaunay
 
-from seiswidgets.core.mapping import PiecewiseAffineMap, TriangleFinder, triangles_at_grid
+from seiswidgets.core.finder import TriangleFinder, triangle_at
+from seiswidgets.core.mapping import PiecewiseAffineMap, triangles_at_grid
 from seiswidgets.core.mesh import triangle_areas
 from seiswidgets.core.resampling import resampled
 from seiswidgets.core.triangulation import edges_along, triangulate
@@ -249,3 +250,13 @@ def test_a_picture_carried_there_and_sampled_back_is_the_picture(mesh):
     column, row = (there.forward(points) - [left, top]).T
     seen = resampled(carried, column, row, 3)
     np.testing.assert_allclose(seen, np.sin(points[:, 0] / 9) * np.cos(points[:, 1] / 7), atol=0.02)
+
+
+def test_one_point_is_found_as_by_a_finder():
+    vertices, cut = np.array([(0, 0), (4, 0), (4, 3), (0, 3), (2, 1.0)]), np.array([(0, 1, 4), (1, 2, 4), (2, 3, 4)])
+    points = np.random.default_rng(3).uniform(-1, 5, (300, 2))
+    found = [triangle_at(vertices, cut, point) for point in points]
+    np.testing.assert_array_equal(found, TriangleFinder(vertices, cut)(points))
+    assert {-1, 0, 1, 2} == set(found)
+    assert triangle_at(vertices, cut, (0.0, 0.0)) == 0
+    assert triangle_at(np.zeros((3, 2)), np.array([(0, 1, 2)]), (0.0, 0.0)) == -1
