@@ -30,7 +30,11 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.stage": ["Stage"],
         "geology.weights": ["Weights"],
         "io": ["datasets"],
+        "widgets.histogram": ["DeformationHistogram"],
         "widgets.pane": ["SectionPane"],
+        "widgets.steplist": ["StepList"],
+        "widgets.timeline": ["Timeline"],
+        "widgets.weightsliders": ["WeightSliders"],
     },
 )
 

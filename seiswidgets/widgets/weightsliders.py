@@ -1,0 +1,100 @@
+"""The weights of the energy's terms, on sliders."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+from ipywidgets import HTML, Button, FloatLogSlider, HBox, Label, Layout, VBox
+from traitlets import Instance, observe
+
+from seiswidgets.geology.weights import Weights
+
+LOWEST, HIGHEST = -2, 3  # powers of 10
+STEP = 0.05  # of the power: twenty to a factor of ten
+
+
+@dataclass(frozen=True)
+class Term:
+    """A weight's name in `Weights`, its symbol in the paper, a plain name, and a sentence about it."""
+
+    field: str
+    symbol: str
+    name: str
+    meaning: str
+
+
+GROUPS = {
+    "Shapes": (
+        Term("mean_value", "α", "mean value", "How strongly the rock keeps its shape inside the blocks."),
+        Term("contour", "β", "contour", "How strongly the outlines of the blocks keep their bends."),
+        Term("edge", "γ", "edges", "How strongly lengths are kept, everywhere in the rock."),
+    ),
+    "Unfaulting": (
+        Term("slide", "ζ", "slide", "How strongly the two sides of a fault stay in contact as they slide."),
+        Term("stitch", "λ", "stitch", "How strongly the cut-offs of a horizon are brought together at a fault."),
+    ),
+    "Flattening": (
+        Term("flatten", "ζ", "flatten", "How strongly the horizon is brought to its datum."),
+        Term("length", "λ", "length", "How strongly the horizon keeps its length while it is flattened."),
+    ),
+}
+
+
+class WeightSliders(VBox):
+    """The weights on logarithmic sliders from 0.01 to 1,000, under the paper's symbols, and a button that resets them.
+
+    A weight that is set from code and has no place on its slider, as 0, is kept until that slider is moved. With the
+    keyboard: Tab goes from slider to slider, arrows and Page Up and Down move one.
+
+    Parameters
+    ----------
+    weights : Weights, optional
+
+    Attributes
+    ----------
+    weights : Weights
+        May be set.
+    """
+
+    weights = Instance(Weights)
+
+    def __init__(self, weights: Weights | None = None, **traits):
+        self._sliders, self._readouts = {}, {}
+        groups = [_group(title, [self._row(term) for term in terms]) for title, terms in GROUPS.items()]
+        reset = Button(description="Reset", tooltip="Set all weights to those of the paper", icon="undo")
+        reset.on_click(lambda _: self.set_trait("weights", Weights()))
+        super().__init__([*groups, reset], **traits)
+        self.weights = Weights() if weights is None else weights
+
+    def _row(self, term):
+        slider = self._sliders[term.field] = FloatLogSlider(
+            min=LOWEST,
+            max=HIGHEST,
+            step=STEP,
+            readout=False,
+            description=f"{term.symbol} {term.name}",
+            tooltip=term.meaning,
+            style={"description_width": "84px"},
+            layout=Layout(flex="1 1 auto", width="auto", min_width="0"),
+        )
+        slider.observe(partial(self._move, term.field), "value")
+        self._readouts[term.field] = Label(layout=Layout(flex="0 0 52px"))
+        return HBox([slider, self._readouts[term.field]])
+
+    def _move(self, name, change):
+        if change.new != _on_slider(getattr(self.weights, name)):  # else it is the slider that follows the weight
+            self.weights = replace(self.weights, **{name: change.new})
+
+    @observe("weights")
+    def _show(self, change):
+        for name, slider in self._sliders.items():
+            weight = getattr(self.weights, name)
+            slider.value = _on_slider(weight)
+            self._readouts[name].value = f"{weight:.3g}" if weight < 1000 else f"{weight:,.0f}"
+
+
+def _on_slider(weight):
+    return min(max(float(weight), 10.0**LOWEST), 10.0**HIGHEST)
+
+
+def _group(title, rows):
+    return VBox([HTML(f"<b>{title}</b>"), *rows], layout=Layout(width="100%"))
