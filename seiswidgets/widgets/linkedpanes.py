@@ -1,7 +1,7 @@
 """The section of today and the restored one, side by side."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from ipywidgets import HTML, GridBox, Layout, VBox, jslink
@@ -184,7 +184,7 @@ class LinkedPanes(VBox):
         if self.zoom_linked and not self._linking:
             self._linking = True
             try:
-                pane.view = pane.view.showing(view.window)
+                pane.view = replace(pane.view, window=view.window)
             finally:
                 self._linking = False
 
