@@ -95,9 +95,8 @@ class RestorationApp(VBox):
         settings = {"steps": Plan().steps, "restoration": Restoration(section), **settings}
         self._ready = self._pressed = False
         self._make_parts(section, height)
+        self._restorer, self._moments = Restorer(self._draw, self.status.tell, self._fail), Worker()
         super().__init__(self._placed(), **settings)
-        self._restorer = Restorer(self._draw, self.status.tell, self._fail)
-        self._moments = Worker()
         self._tie_parts()
         if interpretation is not None:
             self.interpretation = interpretation
@@ -157,6 +156,7 @@ class RestorationApp(VBox):
             [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), tabs],
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
+        self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
         return [self.picker.toolbar, self.status, self.panes, below]
 
     def _tie_parts(self):

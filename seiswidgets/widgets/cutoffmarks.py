@@ -12,6 +12,8 @@ from seiswidgets.geology.parts import hanging_side, parts
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.drawing import FAULT, HORIZON, Drawing, Point, Spot
 
+INTO = 1e-3  # of its length: how far into a piece a place is clear of the fault
+
 
 @dataclass(frozen=True)
 class CutOff:
@@ -27,6 +29,8 @@ class CutOff:
         That the piece lies in.
     point : tuple (x, z)
         On the fault, in the section's units.
+    inside : tuple (x, z)
+        A little way into the piece, clear of the fault.
     part, place : int
         Which of the parts that the faults leave of the horizon, and the end of it (0 or -1).
     """
@@ -36,6 +40,7 @@ class CutOff:
     horizon: str
     wall: str
     point: Point
+    inside: Point
     part: int
     place: int
 
@@ -50,8 +55,10 @@ def cut_offs(drawing: Drawing, section: Section) -> tuple[CutOff, ...]:
                 for place, end in zip((0, -1), part.ends, strict=True):
                     if end:
                         name = list(faults)[end.fault]
-                        point = tuple(section.from_rock(end.point).tolist())
-                        mark = CutOff(0, name, pick.name, WALLS[end.side], point, index, place)
+                        point, inside = (
+                            tuple(at) for at in section.from_rock([end.point, _into(part, place)]).tolist()
+                        )
+                        mark = CutOff(0, name, pick.name, WALLS[end.side], point, inside, index, place)
                         found.setdefault((name, pick.name), []).append(mark)
     order = sorted(found, key=lambda pair: (list(faults).index(pair[0]), drawing.names(HORIZON).index(pair[1])))
     shown = {(pick.kind, pick.name) for pick in drawing.picks if pick.visible}
@@ -61,6 +68,11 @@ def cut_offs(drawing: Drawing, section: Section) -> tuple[CutOff, ...]:
         if (FAULT, fault) in shown and (HORIZON, horizon) in shown
         for mark in found[fault, horizon]
     )
+
+
+def _into(part, place):
+    way = INTO * part.line.length
+    return part.line.interpolate(way if place == 0 else part.line.length - way).coords[0]
 
 
 def parted(drawing: Drawing, section: Section, mark: CutOff) -> tuple[Drawing, Spot]:

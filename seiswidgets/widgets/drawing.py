@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import lru_cache
 
 import numpy as np
 
@@ -224,16 +224,9 @@ class Drawing:
         bad = {piece for kind, name, piece, _ in self._checked[1] if (kind, name) == (pick.kind, pick.name)}
         return [piece for piece in range(len(pick.pieces)) if piece not in bad]
 
-    @cached_property
+    @property
     def _checked(self):
-        found, problems = {FAULT: [], HORIZON: []}, []
-        for pick in self.picks:
-            bad = {piece: message for piece in range(len(pick.pieces)) if (message := _problem(pick, piece))}
-            problems += [(pick.kind, pick.name, piece, message) for piece, message in bad.items()]
-            good = [points for piece, points in enumerate(pick.pieces) if piece not in bad]
-            if good:
-                found[pick.kind].append((Fault if pick.kind == FAULT else Horizon)(*good, name=pick.name))
-        return Interpretation(found[FAULT], found[HORIZON]), problems
+        return _checked(tuple((pick.kind, pick.name, pick.pieces) for pick in self.picks))
 
     def _with(self, kind, name, /, **changes):
         old = self.pick(kind, name)
@@ -253,11 +246,24 @@ class Drawing:
         return min(COLOURS[kind], key=used.count)
 
 
-def _problem(pick, piece):
+@lru_cache(maxsize=64)
+def _checked(picks):
+    """The interpretation of kinds, names and pieces, and what is wrong: kind, name, piece and message of each line."""
+    found, problems = {FAULT: [], HORIZON: []}, []
+    for kind, name, pieces in picks:
+        bad = {number: message for number in range(len(pieces)) if (message := _problem(kind, name, pieces, number))}
+        problems += [(kind, name, number, message) for number, message in bad.items()]
+        good = [points for number, points in enumerate(pieces) if number not in bad]
+        if good:
+            found[kind].append((Fault if kind == FAULT else Horizon)(*good, name=name))
+    return Interpretation(found[FAULT], found[HORIZON]), tuple(problems)
+
+
+def _problem(kind, name, pieces, number):
     """Why a piece cannot be used, or None."""
-    before = [[(0, 0), (1, 0)]] * piece  # so that the message has the piece's own number
+    before = [[(0, 0), (1, 0)]] * number  # so that the message has the piece's own number
     try:
-        Fault(pick.pieces[0], pick.name) if pick.kind == FAULT else Horizon(*before, pick.pieces[piece], name=pick.name)
+        Fault(pieces[0], name) if kind == FAULT else Horizon(*before, pieces[number], name=name)
     except PickError as error:
         return str(error)
     return None

@@ -1,6 +1,7 @@
 """What a pen does when the pointer is pressed, moved or clicked twice."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -142,7 +143,7 @@ def _hold(pen, event, spot, base, fault=None):
 def _cutoff_under(pen, event):
     """The cut-off under a press; of the two at one place, that in the wall in which the pointer is."""
     marks = pen.cutoffs()
-    away = [vertex_under(event, [mark.point], pen.sight.to_pixels) for mark in marks]
+    away = [vertex_under(event, [mark.inside], pen.sight.to_pixels) for mark in marks]
     near = [(hit[1], mark) for hit, mark in zip(away, marks, strict=True) if hit]
     if not near:
         return None
@@ -156,7 +157,7 @@ def _vertex_spot(pen, event):
     found = [
         (hit[1], replace(spot, vertex=hit[0]))
         for spot, points in pen.editable()
-        if (hit := vertex_under(event, points, pen.sight.to_pixels))
+        if (hit := vertex_under(event, points, partial(pen.sight.vertex_pixels, fault=spot.kind == FAULT)))
     ]
     return min(found, key=lambda hit: hit[0])[1] if found else None
 

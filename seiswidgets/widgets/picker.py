@@ -31,10 +31,10 @@ KEYS = (
     *(f"Ctrl+{key}" for key in (*ARROWS, "z", "Z", "y", "Y")),
 )
 MODE_NAMES = {
-    LOOK: ("Look", "eye", "look, zoom and pan; select a line by clicking on it (L)"),
-    "fault": ("Fault", "bolt", "click along a fault; double click or Enter finishes it (F)"),
-    HORIZON: ("Horizon", "minus", "click along a horizon; double click or Enter finishes a piece of it (H)"),
-    BLOCK: ("Hold", "thumb-tack", "click into the block that must stay where it is; again to let it go (B)"),
+    LOOK: ("Look", "look, zoom and pan; select a line by clicking on it (L)"),
+    "fault": ("Fault", "click along a fault; double click or Enter finishes it (F)"),
+    HORIZON: ("Horizon", "click along a horizon; double click or Enter finishes a piece of it (H)"),
+    BLOCK: ("Hold", "click into the block that must stay where it is; again to let it go (B)"),
 }
 
 
@@ -82,6 +82,7 @@ class Picker(VBox):
         self.pane = section if isinstance(section, SectionPane) else SectionPane(section)
         self.pen = Pen(self.pane.view)
         self._panes, self._grip, self._complaints, self._quiet = [], None, {}, False
+        self._told = self.pen.interpretation
         self.list = PicksList(self.pen, self.refresh)
         self.toolbar = self._made_toolbar()
         super().__init__([self.toolbar, self.pane, self.list])
@@ -121,7 +122,9 @@ class Picker(VBox):
         self._quiet = True
         try:
             self.mode, self.dragging = self.pen.state.mode, self.pen.state.drag is not None
-            self.fixed, self.interpretation = self.pen.drawing.fixed, self.pen.interpretation
+            self.fixed = self.pen.drawing.fixed
+            if self.pen.interpretation is not self._told:
+                self.interpretation = self._told = self.pen.interpretation
         finally:
             self._quiet = False
 
@@ -161,6 +164,7 @@ class Picker(VBox):
             return
         if change.name == "interpretation":
             self.pen.load(change.new)
+            self._told = self.pen.interpretation  # the same as what was set, so that nobody is told twice
         elif change.name == "fixed":
             self.pen.hold(change.new)
         else:
@@ -178,9 +182,8 @@ class Picker(VBox):
 
     def _made_toolbar(self):
         modes = ToggleButtons(
-            options=[(name, mode) for mode, (name, _, _) in MODE_NAMES.items()],
-            icons=[icon for _, icon, _ in MODE_NAMES.values()],
-            tooltips=[text for _, _, text in MODE_NAMES.values()],
+            options=[(name, mode) for mode, (name, _) in MODE_NAMES.items()],
+            tooltips=[text for _, text in MODE_NAMES.values()],
             style={"button_width": "auto"},
         )
         self._undo = _button("undo", "undo (Ctrl+Z)", self.pen.undo, self.refresh)
@@ -193,7 +196,7 @@ class Picker(VBox):
             layout=Layout(width="150px"),
         )
         follow = ToggleButton(
-            icon="magic", tooltip="lines between two clicks follow the event", layout=Layout(width="36px")
+            description="Follow", tooltip="lines between two clicks follow the event", layout=Layout(width="auto")
         )
         for widget, name in ((modes, "mode"), (snap, "snap"), (follow, "follow")):
             tie(self, name, widget)

@@ -11,11 +11,8 @@ from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.pen import Pen
 
 TITLES = {FAULT: "Faults", HORIZON: "Horizons"}
-NONE_YET = {
-    FAULT: "none yet: choose Fault and click along one",
-    HORIZON: "none yet: choose Horizon and click along one",
-}
-NARROW = Layout(width="36px", min_width="36px")
+NONE_YET = " <i>none yet: choose {} and click along one</i>"
+NARROW = Layout(width="34px", min_width="34px", padding="0")
 
 
 class PicksList(VBox):

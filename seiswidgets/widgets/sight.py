@@ -12,6 +12,7 @@ from seiswidgets.widgets.view import View
 
 APART = 1.0  # css pixels between the places at which a line is carried
 MOST = 4000  # places of one line
+OFF = 0.02  # css pixels that a line is moved off a fault, to belong to one of its sides
 JUMP = 3.0  # times as far apart after as before: the two places lie on either side of a fault
 COARSE = 0.1  # of a trace and a sample: how far a carried line may be from where it belongs
 
@@ -46,11 +47,23 @@ class Sight:
             return tuple(map(float, point))
         return tuple(self.restoration.to_original([point])[0].tolist())
 
-    def shown(self, line) -> np.ndarray:
+    def vertices(self, line, *, fault: bool = False) -> np.ndarray:
+        """Where the vertices of a line of the original are seen in the pane; shape (n, 2).
+
+        The ends of a horizon go with what lies between them, and a fault with one side of itself.
+        """
+        return self.to_pane(line if self.restoration is None else _clear(line, self.view.pixel, fault))
+
+    def vertex_pixels(self, line, *, fault: bool = False) -> np.ndarray:
+        """The same in css pixels of the pane."""
+        return self.view.to_pixels(self.vertices(line, fault=fault))
+
+    def shown(self, line, *, fault: bool = False) -> np.ndarray:
         """A line of the original as it is seen in the pane, with a row of NaN where it is interrupted; shape (n, 2)."""
         line = np.asarray(line, float)
         if self.restoration is None or len(line) < 2:
             return self.to_pane(line)
+        line = _clear(line, self.view.pixel, fault)
         runs = _carried(line, self.to_pane, self.view.section, self.view.pixel)
         return np.concatenate([row for run in runs for row in (run, [[np.nan, np.nan]])]) if runs else np.empty((0, 2))
 
@@ -68,6 +81,22 @@ class Sight:
             return [ends]
         runs[0][0], runs[-1][-1] = ends
         return runs
+
+
+def _clear(line, pixel, fault):
+    """A line moved off the faults by a fraction of a pixel: a fault sideways, anything else at its ends."""
+    line = np.array(line, float)
+    if len(line) < 2:
+        return line
+    if fault:
+        along = np.gradient(line / pixel, axis=0)
+        along[~along.any(axis=1)] = 1.0  # at a point that is doubled
+        return line + OFF * pixel * along[:, ::-1] * [-1, 1] / np.hypot(*along.T)[:, None]
+    for end, next_to in ((0, 1), (-1, -2)):
+        way = line[next_to] - line[end]
+        length = np.hypot(*(way / pixel))
+        line[end] += way * min(0.25, OFF / length if length else 0.0)
+    return line
 
 
 def _carried(line, carry: Callable, section: Section, pixel) -> list[np.ndarray]:

@@ -34,7 +34,7 @@ def strokes(pen: Pen, sight: Sight) -> list[Stroke]:
 def marks(pen: Pen, sight: Sight, cutoffs: tuple[CutOff, ...]) -> list[Mark]:
     """The cut-offs, numbered; the point that is held; the keyboard cursor."""
     colours = {pick.name: pick.colour for pick in pen.drawing.picks if pick.kind == FAULT}
-    places = [(mark.point, "cutoff", str(mark.number), colours[mark.fault]) for mark in cutoffs]
+    places = [(mark.inside, "cutoff", str(mark.number), colours[mark.fault]) for mark in cutoffs]
     if pen.drawing.fixed:
         places.append((pen.drawing.fixed, "held", "held", UNDER_WAY))
     if pen.state.cursor:
@@ -58,10 +58,11 @@ def _line(pen, sight, spot, points, colour):
     chosen = pen.state.selection
     selected = chosen is not None and (chosen.kind, chosen.name) == (spot.kind, spot.name)
     label = (spot.name or "") if spot.piece == 0 else ""
-    yield Stroke(sight.shown(points), colour, WIDTHS[selected], label=label)
+    fault = spot.kind == FAULT
+    yield Stroke(sight.shown(points, fault=fault), colour, WIDTHS[selected], label=label)
     if spot.name is None or pen.state.mode == spot.kind or (selected and pen.state.mode == LOOK):
         here = selected and chosen.piece == spot.piece
-        alone = np.repeat(sight.to_pane(points), 2, axis=0)  # vertices without lines between them
+        alone = np.repeat(sight.vertices(points, fault=fault), 2, axis=0)  # vertices without lines between them
         alone[1::2] = np.nan
         vertex = 2 * chosen.vertex if here and chosen.vertex is not None else None
         yield Stroke(alone, colour, WIDTHS[selected], dots=True, chosen=vertex)

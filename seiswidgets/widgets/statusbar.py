@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from html import escape
 
-from ipywidgets import HTML, Box, Button, FloatProgress, HBox, Label, Layout, ToggleButton, VBox
+from ipywidgets import HTML, Box, Button, FloatProgress, HBox, Label, Layout, ToggleButton
 from traitlets import Bool, Unicode
 
 from seiswidgets.widgets.messages import HINT, TROUBLE
@@ -12,8 +12,8 @@ from seiswidgets.widgets.ties import tie
 HALF = 4.0  # iterations after which the bar of a step has come half its way
 
 
-class StatusBar(VBox):
-    """Restore, Live, the progress with Cancel, and one line of text.
+class StatusBar(Box):
+    """One line of text, and the progress with Cancel; the buttons Restore and Live, to be placed elsewhere.
 
     Parameters
     ----------
@@ -40,11 +40,11 @@ class StatusBar(VBox):
         for widget in (button, live, self._cancel):
             widget.layout = Layout(width="auto")
         self._progress = HBox([self._bar, self._label, self._cancel], layout=Layout(visibility="hidden"))
-        self._line = HTML(layout=Layout(min_height="1.4em"))
+        self._line = HTML(layout=Layout(flex="1 1 300px", min_height="1.4em"))
         button.on_click(lambda _: restore())
         self._cancel.on_click(lambda _: cancel())
-        tools = Box([button, live, self._progress], layout=Layout(flex_flow="row wrap", align_items="center"))
-        super().__init__([tools, self._line])
+        self.buttons = HBox([button, live])
+        super().__init__([self._line, self._progress], layout=Layout(flex_flow="row wrap", align_items="center"))
         tie(self, "live", live)
 
     def tell(self, progress) -> None:

@@ -1,0 +1,160 @@
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.widgets.picker import Picker
+from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
+
+FAULT = [(400.0, 100.0), (450.0, 300.0), (500.0, 500.0)]
+LEFT, RIGHT = [(50.0, 250.0), (250.0, 260.0), (430.0, 220.0)], [(470.0, 380.0), (850.0, 390.0)]
+NASTY = "<img src=x onerror=alert(1)>"
+
+
+@pytest.fixture
+def section():
+    return sw.Section(np.random.default_rng(1).normal(size=(61, 91)), dx=10.0, dz=10.0)
+
+
+@pytest.fixture
+def picker(section):
+    picker = Picker(section)
+    appear(picker.pane)
+    return picker
+
+
+@pytest.fixture
+def drawn(picker):
+    picker.mode = "fault"
+    draw(picker.pane, *FAULT)
+    picker.mode = "horizon"
+    draw(picker.pane, *LEFT)
+    draw(picker.pane, *RIGHT)
+    return picker
+
+
+def lines(picker):
+    return [stroke["points"] for stroke in picker.pane.layer.strokes if not stroke["dots"]]
+
+
+def rows(picker, kind):
+    """The rows of the list: choose, colour, visible, name, delete; and the message."""
+    shown = [row for row in picker.list._rows[kind] if row in picker.list.children]
+    return [(*row.children[0].children, row.children[1]) for row in shown]
+
+
+def test_lines_are_drawn_and_told(drawn):
+    (fault,), (horizon,) = drawn.interpretation.faults, drawn.interpretation.horizons
+    np.testing.assert_allclose(fault.points, FAULT)
+    for piece, points in zip(horizon.pieces, (LEFT, RIGHT), strict=True):
+        np.testing.assert_allclose(piece, points)
+    np.testing.assert_allclose(lines(drawn)[0], FAULT)
+    cutoffs = [mark for mark in drawn.pane.layer.marks if mark["kind"] == "cutoff"]
+    assert [mark["text"] for mark in cutoffs] == ["1", "1"]
+
+
+def test_the_rubber_band_starts_at_the_last_vertex(picker):
+    picker.mode = "fault"
+    click(picker.pane, *FAULT[:2])
+    np.testing.assert_allclose(picker.pane.layer.rubber, FAULT[1:2])
+    keys(picker.pane, "Escape")
+    assert picker.pane.layer.rubber == []
+
+
+def test_traits_and_screen_follow_each_other(picker):
+    told = []
+    picker.observe(lambda change: told.append(len(change.new.faults)), "interpretation")
+    picks = sw.Interpretation([sw.Fault(FAULT, "F7")], [sw.Horizon(LEFT, name="H7")])
+    picker.interpretation = picks
+    assert told == [1]
+    np.testing.assert_allclose(lines(picker)[0], FAULT)
+    keys(picker.pane, "z", modifiers=["ctrl"])
+    assert told == [1, 0]
+    assert not picker.interpretation.horizons
+    picker.fixed = (100.0, 100.0)
+    assert [mark["kind"] for mark in picker.pane.layer.marks] == ["held"]
+    picker.mode = "block"
+    click(picker.pane, (200.0, 200.0))
+    assert picker.fixed == pytest.approx((200.0, 200.0))
+    with pytest.raises(sw.SettingError, match="fixed must be a point"):
+        picker.fixed = (1.0, 2.0, 3.0)
+
+
+def test_dragging_says_so_and_tells_each_place(drawn):
+    told = []
+    drawn.observe(
+        lambda change: told.append((drawn.dragging, change.new.faults[0].points[1].tolist())), "interpretation"
+    )
+    drawn.mode = "fault"
+    press(drawn.pane, FAULT[1])
+    assert drawn.dragging
+    drag_to(drawn.pane, (460.0, 310.0))
+    drag_to(drawn.pane, (470.0, 320.0))
+    release(drawn.pane, (470.0, 320.0))
+    assert not drawn.dragging
+    assert told == [(True, pytest.approx([460.0, 310.0])), (True, pytest.approx([470.0, 320.0]))]
+
+
+def test_the_list_names_colours_hides_and_deletes(drawn):
+    _, colour, visible, name, delete, _ = rows(drawn, "fault")[0]
+    name.value = NASTY
+    assert drawn.interpretation.faults[0].name == NASTY
+    assert drawn.pane.layer.strokes[0]["label"] == NASTY
+    colour.value = "#123456"
+    assert drawn.pane.layer.strokes[0]["colour"] == "#123456"
+    visible.value = False
+    assert len(drawn.interpretation.faults) == 1
+    assert "fault" not in {stroke["label"] for stroke in drawn.pane.layer.strokes}
+    delete.click()
+    assert not drawn.interpretation.faults
+    for _ in range(4):
+        drawn.pen.undo()
+    drawn.refresh()
+    assert rows(drawn, "fault")[0][3].value == "F1"
+    assert drawn.pane.layer.strokes[0]["colour"] != "#123456"
+
+
+def test_what_is_wrong_with_a_pick_is_said_beside_it(drawn):
+    *_, name, _, message = rows(drawn, "fault")[0]
+    name.value = " "
+    assert "must not be empty" in message.value
+    drawn.refresh()
+    assert name.value == "F1"
+    assert message.layout.display == "none"
+    drawn.complain({"H1": f"horizon {NASTY} is odd"})
+    *_, message = rows(drawn, "horizon")[0]
+    assert "&lt;img" in message.value
+    assert NASTY not in message.value
+    drawn.mode = "fault"
+    draw(drawn.pane, (100, 100), (200, 200), (200, 100), (100, 200))
+    assert "crosses itself" in rows(drawn, "fault")[1][-1].value
+
+
+def test_a_horizon_of_its_own_is_begun_by_the_button(drawn):
+    new = drawn.toolbar.children[1].children[3]
+    new.click()
+    draw(drawn.pane, (50.0, 500.0), (400.0, 510.0))
+    assert [len(horizon.pieces) for horizon in drawn.interpretation.horizons] == [2, 1]
+
+
+def test_horizons_snap_where_that_is_asked_for():
+    case = sw.synthetic.sine_fold(noise=0)
+    picker = Picker(case.section, mode="horizon", snap="peak", follow=True)
+    appear(picker.pane)
+    (bed,) = case.interpretation.horizons[1].pieces
+    draw(picker.pane, tuple(bed[3] + (0, 12)), tuple(bed[30] - (0, 9)))
+    (piece,) = picker.interpretation.horizons[0].pieces
+    assert len(piece) > 3
+    assert abs(np.interp(piece[:, 0], *bed.T) - piece[:, 1]).max() < case.section.dz
+    picker.snap = "off"
+    picker.pen.deselect()
+    draw(picker.pane, tuple(bed[3] + (0, 80)), tuple(bed[30] + (0, 80)))
+    assert len(picker.interpretation.horizons[1].pieces[0]) == 2
+
+
+def test_all_of_it_by_keyboard(picker):
+    keys(picker.pane, "f", "Enter", "ArrowUp", "ArrowUp", " ", "ArrowDown", "ArrowRight", " ", "Enter")
+    assert len(picker.interpretation.faults) == 1
+    assert [mark["kind"] for mark in picker.pane.layer.marks] == ["cursor"]
+    assert picker.mode == "fault"
+    keys(picker.pane, "Escape", "Escape")
+    assert picker.mode == "look"
