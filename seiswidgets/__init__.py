@@ -29,6 +29,12 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.stage": ["Stage"],
         "geology.weights": ["Weights"],
         "io": ["datasets"],
+        "io.info": ["SectionInfo"],
+        "io.meshes": ["save_mesh"],
+        "io.opening": ["open_section", "preview"],
+        "io.reports": ["save_report"],
+        "io.results": ["save_section"],
+        "io.xarrays": ["displacement", "from_xarray", "to_xarray"],
         "widgets.pane": ["SectionPane"],
     },
 )
