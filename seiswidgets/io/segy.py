@@ -99,12 +99,12 @@ def _samples(headers, traces, progress):
     samples, file = headers.layout.samples, headers.file
     kind = np.result_type(file.dtype, np.float32)
     checked_size(headers.layout.path, (samples, len(traces)), kind.itemsize)
-    amplitude = np.empty((len(traces), samples), kind)
+    amplitude = np.empty((samples, len(traces)), kind)
     for start in range(0, len(traces), BLOCK):
         for place, trace in enumerate(traces[start : start + BLOCK], start):
-            amplitude[place] = file.trace.raw[int(trace)]
+            amplitude[:, place] = file.trace.raw[int(trace)]
         tell(progress, min(1.0, (start + BLOCK) / len(traces)))
-    return amplitude.T
+    return amplitude
 
 
 def preview_segy(path: Path) -> SectionInfo:

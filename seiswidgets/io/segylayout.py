@@ -109,9 +109,7 @@ def _traces(path, samples, itemsize, extra_texts):
             f"{path} says that its traces have no samples (bytes 3221-3222); write it anew from the program it is from"
         )
     if extra_texts < 0:
-        raise DataError(
-            f"{path} has an unknown number of extended textual headers (bytes 3505-3506); write it with none"
-        )
+        raise DataError(f"{path} has an unknown number of further textual headers (bytes 3505-3506); write it without")
     first, length = HEADERS + TEXT * extra_texts, TRACE_HEADER + samples * itemsize
     size = path.stat().st_size
     traces, rest = divmod(size - first, length)
