@@ -109,12 +109,15 @@ def section_of(path: Path, amplitude: np.ndarray, choices: Choices, **found) -> 
     return Section(amplitude, **fields)
 
 
+def checked_shape(path: Path, shape: tuple[int, ...]):
+    """DataError if a matrix of this shape makes no section."""
+    if len(shape) != 2 or min(shape) < 2:
+        raise DataError(f"{path} must hold a matrix of at least 2 samples by 2 traces, but holds one of shape {shape}")
+
+
 def checked_amplitude(path: Path, amplitude: np.ndarray):
     """DataError if amplitudes do not make a section, with the file and the place."""
-    if amplitude.ndim != 2 or min(amplitude.shape) < 2:
-        raise DataError(
-            f"{path} must hold at least 2 samples by 2 traces, as a matrix of that shape, but holds {amplitude.shape}"
-        )
+    checked_shape(path, amplitude.shape)
     if np.isinf(amplitude).any():
         sample, trace = np.argwhere(np.isinf(amplitude))[0]
         raise DataError(

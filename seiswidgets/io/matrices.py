@@ -4,6 +4,7 @@ import warnings
 import zipfile
 import zlib
 from contextlib import contextmanager
+from math import prod
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.lib import format as npy
 
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.section import Section
-from seiswidgets.io.choices import OF_AXES, OF_SEGY, Choices, Progress, checked_size, section_of
+from seiswidgets.io.choices import OF_AXES, OF_SEGY, Choices, Progress, checked_shape, checked_size, section_of
 from seiswidgets.io.info import SectionInfo
 
 STORED = ("dx", "dz", "x0", "z0", "x_unit", "z_unit", "velocity", "name", "credit")  # beside the amplitude, in .npz
@@ -33,7 +34,11 @@ def open_array(path: Path, choices: Choices, _progress: Progress | None) -> Sect
     """
     choices.refuse(OF_SEGY, "an array")
     with _honest(path, "array"), path.open("rb") as file:
-        arrays = _of_npz(path, file) if zipfile.is_zipfile(file) else {"": _array(path, file, path.stat().st_size)}
+        if zipfile.is_zipfile(file):
+            arrays = _of_npz(path, file)
+        else:
+            file.seek(0)
+            arrays = {"": _array(path, file, path.stat().st_size)}
     amplitude = _the_matrix(path, arrays)
     stored = {name: arrays[name].item() for name in STORED if name in arrays and arrays[name].ndim == 0}
     if {"dx", "dz"} <= stored.keys() and choices.extent is None:
@@ -50,7 +55,8 @@ def preview_array(path: Path) -> SectionInfo:
             shape, dtype, whole = array.shape, array.dtype, {"dx", "dz", "z_unit"} <= arrays.keys()
         else:
             file.seek(0)
-            shape, _, dtype = _header(path, file)
+            shape, _, dtype = _header(path, file, path.stat().st_size)
+            checked_shape(path, shape)
             whole = False
     needed = () if whole else NEEDED
     return SectionInfo(path, "array", str(dtype), path.stat().st_size, shape, needed)
@@ -96,9 +102,9 @@ def _honest(path, kind):
 def _of_npz(path, file):
     """The arrays of an .npz file, by name."""
     with zipfile.ZipFile(file) as archive:
+        checked_size(path, (sum(info.file_size for info in archive.infolist()),), 1)
         found = {}
         for info in archive.infolist():
-            checked_size(path, (info.file_size,), 1)
             with archive.open(info) as member:
                 found[info.filename.removesuffix(".npy")] = _array(path, member, info.file_size)
     return found
@@ -115,27 +121,28 @@ def _the_matrix(path, arrays):
 
 
 def _array(path, file, size):
-    """An array of numbers or text in NumPy's format; its size is held against the file's before it is read."""
-    start = 0 if not file.seekable() else file.seek(0)
-    shape, by_columns, dtype = _header(path, file)
-    if dtype.kind not in "fiubU":
-        raise DataError(f"{path} holds {dtype}, not real numbers; nothing else is read from an array's file")
-    checked_size(path, shape, dtype.itemsize)
-    count = int(np.prod(shape, dtype=object)) * dtype.itemsize
-    if min(shape, default=0) < 0 or count != size - (file.tell() - start):
-        raise DataError(
-            f"{path} says that it holds an array of shape {shape}, {count} bytes, but has {size - file.tell()} after "
-            "its header; it was cut short, or is damaged: write it anew"
-        )
-    return np.frombuffer(file.read(count), dtype).reshape(shape, order="F" if by_columns else "C")
+    """An array of numbers or text in NumPy's format."""
+    shape, by_columns, dtype = _header(path, file, size)
+    return np.frombuffer(file.read(), dtype).reshape(shape, order="F" if by_columns else "C")
 
 
-def _header(path, file):
-    """Shape, order and dtype of an array in NumPy's format."""
+def _header(path, file, size):
+    """Shape, order and dtype of an array in NumPy's format, held against its size before more of it is read."""
     version = npy.read_magic(file)
     if version not in ((1, 0), (2, 0)):
         raise DataError(f"{path} is of version {version} of NumPy's format, which no matrix of numbers needs")
-    return (npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0)(file)
+    read = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+    shape, by_columns, dtype = read(file)
+    if dtype.kind not in "fiubU":
+        raise DataError(f"{path} holds {dtype}, not real numbers; nothing else is read from an array's file")
+    checked_size(path, shape, dtype.itemsize)
+    count, left = dtype.itemsize * prod(shape), size - file.tell()
+    if min(shape, default=0) < 0 or count != left:
+        raise DataError(
+            f"{path} says that it holds an array of shape {shape}, {count} bytes, but has {left} after its header; "
+            "it was cut short, or is damaged: write it anew"
+        )
+    return shape, by_columns, dtype
 
 
 def _numbers(path, rows=None):
