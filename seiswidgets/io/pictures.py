@@ -76,6 +76,12 @@ def _check_size(path, image):
         raise DataError(
             f"{path} is a picture of {width} x {height} pixels; there may be {MOST_PIXELS:,}: save a smaller one"
         )
+    right, bottom = np.max([tile[1][2:] for tile in image.tile], axis=0)
+    if right < width or bottom < height:  # Pillow would leave the rest black
+        raise DataError(
+            f"{path} says that it has {width} x {height} pixels, but holds {right} x {bottom}; it is damaged: save it "
+            "anew as PNG"
+        )
 
 
 def _grey(image):
@@ -86,5 +92,6 @@ def _grey(image):
         opaque = np.asarray(image.getchannel("A")) > 0
     if image.mode not in (*MIDDLE, *AS_THEY_ARE):
         image = image.convert("L")
-    amplitude = np.asarray(image, np.float32) - np.float32(MIDDLE.get(image.mode, 0.0))
+    amplitude = np.array(image, np.float32)
+    amplitude -= MIDDLE.get(image.mode, 0.0)
     return amplitude if opaque is None else np.where(opaque, amplitude, np.float32(np.nan))

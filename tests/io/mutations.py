@@ -5,12 +5,12 @@ of them took beside what a sound file takes.
 """
 
 import json
-import resource
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
+from memory import peak
 
 import seiswidgets as sw
 
@@ -72,7 +72,7 @@ def main(sound, count, seed):
     content, random = sound.read_bytes(), np.random.default_rng(seed)
     assert not outcome(sound, choices), f"{sound} is sound"
     damaged, refused, slowest = sound.with_name(f"damaged{sound.suffix}"), 0, 0.0
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    before = peak()
     for number in range(count):
         damaged.write_bytes(mutated(content, random))
         start = time.perf_counter()
@@ -81,7 +81,7 @@ def main(sound, count, seed):
         except Exception as error:
             raise AssertionError(f"mutation {number} of {sound.name} gave {error!r}") from error
         slowest = max(slowest, time.perf_counter() - start)
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    memory = peak() - before
     print(json.dumps({"refused": refused, "opened": count - refused, "slowest": slowest, "memory": memory}))
 
 

@@ -109,3 +109,12 @@ def test_half_a_picture_is_an_error(tmp_path):
     path.write_bytes(path.read_bytes()[:1000])
     with pytest.raises(sw.DataError, match=r"scan.png is a damaged picture.*save it anew as PNG"):
         sw.open_section(path, extent=EXTENT, z_unit="m")
+
+
+def test_a_picture_that_lacks_its_lower_part_is_refused(tmp_path):
+    path = saved(tmp_path / "scan.tif", GREY)
+    content = path.read_bytes()
+    height = content.index((257).to_bytes(2, "little")) + 8
+    path.write_bytes(content[:height] + (1_000_000).to_bytes(4, "little") + content[height + 4 :])
+    with pytest.raises(sw.DataError, match=r"scan.tif says that it has 3 x 1000000 pixels, but holds 3 x 2"):
+        sw.preview(path)
