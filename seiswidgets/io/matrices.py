@@ -1,5 +1,6 @@
 """Matrices in: NumPy's .npy and .npz, and text. Nothing in them is unpickled or evaluated."""
 
+import tokenize
 import warnings
 import zipfile
 import zlib
@@ -17,7 +18,19 @@ from seiswidgets.io.info import SectionInfo
 
 STORED = ("dx", "dz", "x0", "z0", "x_unit", "z_unit", "velocity", "name", "credit")  # beside the amplitude, in .npz
 MOST_TEXT = 2**28  # bytes of a text file
-DAMAGED = (ArithmeticError, EOFError, LookupError, OSError, RuntimeError, SyntaxError, TypeError, ValueError)
+DAMAGED = (  # what NumPy and Python's own readers raise
+    ArithmeticError,
+    EOFError,
+    LookupError,
+    OSError,
+    RuntimeError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 NEEDED = ("extent, or dx and dz", "z_unit or velocity")
 DELIMITERS = (";", ",", None)  # None: blanks
 
@@ -95,7 +108,7 @@ def _honest(path, kind):
             yield
     except SeiswidgetsError:
         raise
-    except (*DAMAGED, zipfile.BadZipFile, zlib.error) as error:
+    except DAMAGED as error:
         raise DataError(f"{path} is a damaged {kind}, or no matrix of numbers: {error}; write it anew") from error
 
 

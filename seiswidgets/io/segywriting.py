@@ -115,5 +115,5 @@ def _textual_header(lines, section, done):
     places = blank[: len(words)] if len(blank) >= len(words) else range(40 - len(words), 40)
     for place, word in zip(places, words, strict=True):
         texts[place] = word
-    lines = (f"C{number:02} {text[:76].ljust(76)}" for number, text in enumerate(texts, 1))
-    return "".join(lines).encode("ascii", "replace")
+    lines = "".join(f"C{number:02} {text[:76].ljust(76)}" for number, text in enumerate(texts, 1))
+    return "".join(letter if letter.isprintable() else " " for letter in lines).encode("ascii", "replace")

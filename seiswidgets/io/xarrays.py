@@ -58,7 +58,7 @@ def from_xarray(array: "xarray.DataArray", **fields) -> Section:
     known = ("x_unit", "z_unit", *OF_SECTION)
     if unknown := set(fields) - set(known):
         raise SettingError(f"from_xarray takes {', '.join(known)}, but not {', '.join(sorted(unknown))}")
-    if getattr(array, "ndim", 0) != 2:
+    if len(getattr(array, "dims", ())) != 2:
         raise SectionError(f"a section is made from an xarray.DataArray of 2 dimensions, not from {_short(array)}")
     if array.dims[1] == "z" or array.dims[0] == "x":
         array = array.transpose(*array.dims[::-1])

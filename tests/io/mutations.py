@@ -68,7 +68,7 @@ def outcome(path, choices):
 
 
 def main(sound, count, seed):
-    choices = CHOICES if sound.suffix != ".inline" else CHOICES | {"inline": 11}
+    choices = {"inline": 11, "z_unit": "m"} if sound.suffix == ".inline" else CHOICES
     content, random = sound.read_bytes(), np.random.default_rng(seed)
     assert not outcome(sound, choices), f"{sound} is sound"
     damaged, refused, slowest = sound.with_name(f"damaged{sound.suffix}"), 0, 0.0

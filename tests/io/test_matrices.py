@@ -75,6 +75,13 @@ def test_a_header_that_claims_another_size_is_refused(tmp_path, shape):
         sw.open_section(path, **AXES)
 
 
+def test_a_header_that_python_cannot_parse_is_refused(tmp_path):
+    path = npy(tmp_path / "line.npy", MATRIX)
+    path.write_bytes(path.read_bytes().replace(b"(2, 3)", b"(2, 3("))
+    with pytest.raises(sw.DataError, match=r"line.npy is a damaged array"):
+        sw.open_section(path, **AXES)
+
+
 def test_an_npz_is_read_no_further_than_its_size(tmp_path):
     path = tmp_path / "line.npz"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
