@@ -93,9 +93,10 @@ def open_text(path: Path, choices: Choices, _progress: Progress | None) -> Secti
 
 def preview_text(path: Path) -> SectionInfo:
     """What a text holds; only its first row is read as numbers."""
-    columns = _numbers(path, rows=1).shape[1]
+    columns = _numbers(path, rows=1).shape[-1]
     with _honest(path, "text"), path.open(encoding="utf-8-sig") as file:
         rows = sum(bool(line.partition("#")[0].strip()) for line in file)
+    checked_shape(path, (rows, columns))
     return SectionInfo(path, "text", "numbers", path.stat().st_size, (rows, columns), NEEDED)
 
 

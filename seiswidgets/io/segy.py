@@ -14,6 +14,7 @@ from seiswidgets.io.segylayout import layout
 from seiswidgets.io.segyline import TraceHeaders, checked_bytes, line, spacing, volume
 
 BLOCK = 256  # traces between two reports of progress
+PREVIEWED = 10_000  # traces that a preview looks at, for their spacing
 PER_MS_OR_M = {"ms": 1.0, "s": 1e-3, "m": 1.0, "km": 1e-3, "ft": 1.0}  # a depth in feet is written as if in metres
 
 
@@ -31,12 +32,9 @@ def open_segy(path: Path, choices: Choices, progress: Progress | None) -> Sectio
     z_unit = choices.time_or_depth(path)
     with trace_headers(path, choices) as headers:
         traces = line(headers, choices, progress)
-        found = _axes(headers, traces, choices)
+        found = _axes(headers, traces, choices, PER_MS_OR_M.get(z_unit, 1.0))
         amplitude = _samples(headers, traces, progress)
-    scale = PER_MS_OR_M.get(z_unit, 1.0)
-    for name in ("dz", "z0"):
-        found[name] = choices.given().get(name, found[name] * scale)
-    return section_of(path, amplitude, choices, **found, x0=choices.x0 or 0.0)
+    return section_of(path, amplitude, choices, **found)
 
 
 @contextmanager
@@ -58,13 +56,15 @@ def trace_headers(path: Path, choices: Choices):
         yield TraceHeaders(found, file, positions)
 
 
-def _axes(headers, traces, choices):
-    """Spacing and origin as far as they were not chosen; z in milliseconds or metres."""
-    x_unit = "ft" if headers.layout.feet else "m"
-    dx = spacing(headers, traces) if choices.dx is None else choices.dx
-    dz = _interval(headers, traces) if choices.dz is None else choices.dz
-    z0 = _delay(headers, traces) if choices.z0 is None else choices.z0
-    return {"dx": dx, "dz": dz, "z0": z0, "x_unit": x_unit}
+def _axes(headers, traces, choices, scale):
+    """Spacing, origin and unit as the user chose, else as the headers say: z there times a scale."""
+    return {
+        "dx": spacing(headers, traces) if choices.dx is None else choices.dx,
+        "dz": scale * _interval(headers, traces) if choices.dz is None else choices.dz,
+        "x0": choices.x0 or 0.0,
+        "z0": scale * _delay(headers, traces) if choices.z0 is None else choices.z0,
+        "x_unit": "ft" if headers.layout.feet else "m",
+    }
 
 
 def _interval(headers, traces):
@@ -111,8 +111,7 @@ def preview_segy(path: Path) -> SectionInfo:
     """What a SEG-Y file holds; reads its headers alone, and of a volume only some."""
     with trace_headers(path, Choices()) as headers:
         found, grid = headers.layout, volume(headers)
-        first = np.arange(found.traces) if grid is None else np.arange(len(grid.numbers[grid.fast]))
-        first = first[:10_000]
+        first = np.arange(min(PREVIEWED, found.traces if grid is None else len(grid.numbers[grid.fast])))
         dx, dz, z0 = (_or_none(measure, headers, first) for measure in (spacing, _interval, _delay))
     return SectionInfo(
         path=path,

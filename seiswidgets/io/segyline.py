@@ -14,7 +14,7 @@ from seiswidgets.io.optional import required
 from seiswidgets.io.segylayout import Layout
 
 BYTES = {"inline": 189, "crossline": 193, "x": 181, "y": 185, "scalar": 71}  # as revision 1 of the standard has them
-OTHERS = (("x", 73, "y", 77), ("x", 81, "y", 85))  # source and receiver: where old lines have their positions
+OTHERS = ((73, 77), (81, 85))  # source and receiver: where old lines have their positions
 WINDOW = 65_536  # headers read at a time
 EVEN = 0.05  # of the spacing: what a step may differ from it, beside the rounding of the positions
 STRAIGHT = 0.01  # of its length: by how much a line may be longer than the way from end to end
@@ -49,7 +49,7 @@ def checked_bytes(layout: Layout, chosen: Mapping[str, int] | None) -> dict[str,
     SettingError
         If a name or a byte is not one of SEG-Y's.
     """
-    known = {int(field) for field in required("segyio", f"to read {layout.path}").TraceField.enums()}
+    known = [int(field) for field in required("segyio", f"to read {layout.path}").TraceField.enums()]
     for name, byte in (chosen or {}).items():
         if name not in BYTES:
             raise SettingError(f"header_bytes= takes {', '.join(BYTES)}, but has {name!r}")
@@ -98,7 +98,7 @@ def volume(headers: TraceHeaders) -> Volume | None:
     same = [name for name in ("inline", "crossline") if np.ptp(headers(name, slice(0, 2))) == 0]
     if len(same) != 1:
         return None
-    slow, fast = (same[0], "crossline" if same[0] == "inline" else "inline")
+    slow, fast = same[0], "crossline" if same[0] == "inline" else "inline"
     length = _length_of_first_line(headers, slow)
     if length == count or count % length:
         return None
@@ -205,7 +205,7 @@ def spacing(headers: TraceHeaders, traces: np.ndarray) -> float:
         raise DataError(_missing(headers, traces))
     typical = float(np.median(steps))
     off = np.abs(steps - typical)
-    if off.max() > EVEN * typical + 2 * rounding:
+    if off.max() > EVEN * typical + 1.5 * rounding:  # both ends are rounded, in x and in y
         bad = int(np.argmax(off))
         raise DataError(
             f"{path} has unevenly spaced traces: most are {typical:g} apart, but traces {traces[bad]} and "
@@ -236,7 +236,7 @@ def _refuse_angles(headers, traces):
 def _missing(headers, traces):
     x, y = headers.bytes["x"], headers.bytes["y"]
     said = f"{headers.layout.path} has no positions of its traces: bytes {x} and {y} of all headers hold the same"
-    for _, other_x, _, other_y in OTHERS:
+    for other_x, other_y in OTHERS:
         if any(np.ptp(headers(byte, traces)) for byte in (other_x, other_y)):
             others = f'header_bytes={{"x": {other_x}, "y": {other_y}}}'
             return f"{said}. Others stand at bytes {other_x} and {other_y}: give {others}, or the distance dx="
