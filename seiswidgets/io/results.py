@@ -56,6 +56,8 @@ def save_section(
     line = Choices(inline=inline, crossline=crossline, traces=traces, header_bytes=header_bytes, x0=x0)
     done = section if isinstance(section, Restoration) else None
     section = section.section if done else section
+    if not isinstance(section, Section):
+        raise SettingError(f"save_section takes a Section or a Restoration, but got a {type(section).__name__}")
     if path.suffix.lower() == ".npz":
         if like is not None or line.given(("inline", "crossline", "traces", "header_bytes")):
             raise SettingError(f"{path} becomes an .npz file, which has no headers; leave like= and its line out")

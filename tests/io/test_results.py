@@ -169,3 +169,8 @@ def test_another_ending_is_refused(tmp_path):
         sw.save_section(restored(), tmp_path / "line.dat")
     with pytest.raises(sw.SettingError, match="leave like= and its line out"):
         sw.save_section(restored(), tmp_path / "line.npz", like="before.sgy")
+
+
+def test_something_else_is_refused(tmp_path):
+    with pytest.raises(sw.SettingError, match="takes a Section or a Restoration, but got a ndarray"):
+        sw.save_section(np.ones((2, 2)), tmp_path / "line.npz")
