@@ -116,7 +116,7 @@ def _honest(path, kind):
 def _of_npz(path, file):
     """The arrays of an .npz file, by name."""
     with zipfile.ZipFile(file) as archive:
-        checked_size(path, (sum(info.file_size for info in archive.infolist()),), 1)
+        checked_size(path, (sum(info.file_size for info in archive.infolist()),), itemsize=1)
         found = {}
         for info in archive.infolist():
             with archive.open(info) as member:
