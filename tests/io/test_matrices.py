@@ -1,0 +1,144 @@
+import zipfile
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+
+MATRIX = np.array([[1, 2.5, -3], [4, np.nan, 6]])
+AXES = {"dx": 10, "dz": 5, "z_unit": "m"}
+
+
+def npy(path, array, **choices):
+    np.save(path, array, **choices)
+    return path
+
+
+def npz(path, **arrays):
+    np.savez(path, **arrays)
+    return path
+
+
+def text(path, content, encoding="utf-8"):
+    path.write_text(content, encoding=encoding)
+    return path
+
+
+@pytest.mark.parametrize("dtype", ["<f8", ">f8", "f4", "f2", "i2", ">i4", "u1", "?"])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_arrays_of_any_real_kind(tmp_path, dtype, order):
+    array = np.asarray(np.arange(12).reshape(3, 4) % 7, dtype, order=order)
+    section = sw.open_section(npy(tmp_path / "line.npy", array), **AXES)
+    np.testing.assert_array_equal(section.amplitude, array.astype(float))
+    assert section.amplitude.dtype.isnative
+    assert (section.dx, section.dz, section.x0, section.z0) == (10, 5, 0, 0)
+
+
+def test_an_extent_will_do_for_spacing(tmp_path):
+    section = sw.open_section(npy(tmp_path / "line.npy", MATRIX), extent=(10, 30, 100, 104), velocity=2000)
+    assert (section.dx, section.dz, section.extent, section.z_unit) == (10, 4, (10, 30, 100, 104), "ms")
+
+
+def test_an_npz_with_one_matrix(tmp_path):
+    section = sw.open_section(npz(tmp_path / "line.npz", picture=MATRIX, times=np.arange(3)), **AXES)
+    np.testing.assert_array_equal(section.amplitude, MATRIX)
+
+
+@pytest.mark.parametrize("arrays", [{"a": MATRIX, "b": MATRIX}, {"a": MATRIX[0]}, {"a": np.array([["x", "y"]] * 2)}])
+def test_an_npz_without_a_single_matrix_of_numbers(tmp_path, arrays):
+    with pytest.raises(sw.DataError, match=r"line.npz must hold one matrix of real numbers.*, but holds a of shape"):
+        sw.open_section(npz(tmp_path / "line.npz", **arrays), **AXES)
+
+
+def test_nothing_is_unpickled(tmp_path):
+    class Trap:
+        def __reduce__(self):
+            return pytest.fail, ("unpickled",)
+
+    trap = np.array([[Trap(), 1], [2, 3]], object)
+    for path in (npy(tmp_path / "trap.npy", trap), npz(tmp_path / "trap.npz", amplitude=trap)):
+        with pytest.raises(sw.DataError, match="holds object, not real numbers"):
+            sw.open_section(path, **AXES)
+        with pytest.raises(sw.DataError, match=r"holds object|real numbers"):
+            sw.preview(path)
+
+
+@pytest.mark.parametrize(
+    "shape", ["(100000, 100000)", "(1000000000000, 1000000000000)", "(-3, -2)", "(3, 3)", "(2, 2)"]
+)
+def test_a_header_that_claims_another_size_is_refused(tmp_path, shape):
+    path = npy(tmp_path / "line.npy", MATRIX)
+    content = path.read_bytes()
+    claimed = content[:128].replace(b"(2, 3)", shape.encode()).replace(b" " * (len(shape) - 6), b"", 1)[:127] + b"\n"
+    path.write_bytes(claimed + content[128:])
+    with pytest.raises(sw.DataError, match=r"line.npy .*(would make a section of|says that it holds)"):
+        sw.open_section(path, **AXES)
+
+
+def test_a_header_that_python_cannot_parse_is_refused(tmp_path):
+    path = npy(tmp_path / "line.npy", MATRIX)
+    path.write_bytes(path.read_bytes().replace(b"(2, 3)", b"(2, 3("))
+    with pytest.raises(sw.DataError, match=r"line.npy is a damaged array"):
+        sw.open_section(path, **AXES)
+
+
+def test_an_npz_that_would_unpack_to_too_much_is_refused_packed(tmp_path, monkeypatch):
+    np.savez_compressed(tmp_path / "line.npz", amplitude=np.zeros((100, 100)))
+    monkeypatch.setattr("seiswidgets.io.choices.MOST_BYTES", 10_000)
+    monkeypatch.setattr(zipfile.ZipFile, "open", lambda *_: pytest.fail("unpacked"))
+    with pytest.raises(sw.DataError, match=r"line.npz would make a section of 80128 amplitudes"):
+        sw.open_section(tmp_path / "line.npz", **AXES)
+
+
+@pytest.mark.parametrize(
+    "content",
+    ["1 2.5 -3\n4 nan 6\n", "# x\n1,2.5,-3\n\n4,nan,6", "1;2.5;-3\r\n4;NaN;6", "1\t2.5\t-3 # one\n4\tnan\t6\n"],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig"])
+def test_text_of_every_delimiter(tmp_path, content, encoding):
+    path = text(tmp_path / "line.txt", content, encoding)
+    np.testing.assert_array_equal(sw.open_section(path, **AXES).amplitude, MATRIX)
+    info = sw.preview(path)
+    assert (info.kind, info.shape) == ("text", (2, 3))
+
+
+def test_text_is_known_without_a_suffix(tmp_path):
+    assert sw.preview(text(tmp_path / "line.dat", "1 2\n3 4\n")).kind == "text"
+
+
+@pytest.mark.parametrize(
+    ("content", "encoding"),
+    [
+        ("1 2\n3\n", "utf-8"),
+        ("one two\n3 4\n", "utf-8"),
+        ("1 2\n3 4 é", "latin-1"),
+        ("1 2\n3 4", "utf-16"),
+        ("#", "utf-8"),
+    ],
+)
+def test_text_that_is_no_matrix(tmp_path, content, encoding):
+    with pytest.raises(sw.DataError, match=r"line.txt (is a damaged text, or no matrix of numbers|must hold a matrix)"):
+        sw.open_section(text(tmp_path / "line.txt", content, encoding), **AXES)
+
+
+def test_what_is_infinite_or_nothing_at_all_is_refused(tmp_path):
+    with pytest.raises(sw.DataError, match=r"line.txt has an infinite amplitude, at sample 1 of trace 0"):
+        sw.open_section(text(tmp_path / "line.txt", "1 2\n1e999 4\n"), **AXES)
+    with pytest.raises(sw.DataError, match=r"line.npy has no amplitudes: all 4 are NaN"):
+        sw.open_section(npy(tmp_path / "line.npy", np.full((2, 2), np.nan)), **AXES)
+
+
+@pytest.mark.parametrize("array", [np.ones(5), np.ones((1, 5)), np.ones((2, 2, 2)), np.ones((2, 2), complex)])
+def test_an_array_that_is_no_matrix(tmp_path, array):
+    with pytest.raises(sw.DataError, match=r"line\.npy .*(matrix|real numbers)"):
+        sw.open_section(npy(tmp_path / "line.npy", array), **AXES)
+
+
+def test_axes_are_asked_for(tmp_path):
+    path = npy(tmp_path / "line.npy", MATRIX)
+    with pytest.raises(sw.SettingError, match=r"line.npy does not say how long and how deep"):
+        sw.open_section(path, z_unit="m", dx=1)
+    with pytest.raises(sw.SettingError, match=r"line.npy does not say whether it is in time or in depth"):
+        sw.open_section(path, dx=1, dz=1)
+    info = sw.preview(path)
+    assert (info.shape, info.needed) == ((2, 3), ("extent, or dx and dz", "z_unit or velocity"))

@@ -1,0 +1,69 @@
+import os
+import sys
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from tests.io.segyfiles import segy_bytes, straight
+
+
+@pytest.mark.parametrize("act", [sw.preview, lambda path: sw.open_section(path, z_unit="m")])
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("gone.sgy", None, r"gone.sgy is not there"),
+        ("", None, r"is a folder; give the path of a file"),
+        ("empty.npy", b"", r"empty.npy is empty"),
+        ("scan.png", b"no picture", r"scan.png is called .png, but does not begin like one"),
+        ("line.npz", b"no archive", r"line.npz is called .npz, but does not begin like one"),
+        ("unknown", b"\x7fELF" * 2000, r"unknown is no SEG-Y file"),
+    ],
+)
+def test_a_file_that_cannot_be(tmp_path, act, name, content, message):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(sw.DataError, match=message):
+        act(tmp_path / name)
+
+
+def test_a_path_may_be_a_string_and_the_suffix_in_capitals(tmp_path):
+    path = tmp_path / "LINE.SGY"
+    path.write_bytes(segy_bytes(np.ones((2, 3)), straight(2)))
+    assert sw.open_section(str(path), z_unit="m").name == "LINE"
+
+
+def test_segy_is_known_without_a_suffix(tmp_path):
+    (tmp_path / "line").write_bytes(segy_bytes(np.ones((2, 3)), straight(2)))
+    assert sw.preview(tmp_path / "line").kind == "SEG-Y"
+
+
+def test_a_misspelt_choice_is_an_error(tmp_path):
+    with pytest.raises(TypeError, match="velocty"):
+        sw.open_section(tmp_path, velocty=2000)
+
+
+@pytest.mark.parametrize("chosen", [{"dx": -5, "dz": 1}, {"dx": 1, "dz": "one"}])
+def test_spacings_that_are_none(tmp_path, chosen):
+    np.save(tmp_path / "line.npy", np.ones((2, 2)))
+    with pytest.raises(sw.SectionError, match="must be"):
+        sw.open_section(tmp_path / "line.npy", z_unit="m", **chosen)
+
+
+def test_a_missing_package_is_named(tmp_path, monkeypatch):
+    (tmp_path / "line.sgy").write_bytes(segy_bytes(np.ones((2, 3)), straight(2)))
+    monkeypatch.setitem(sys.modules, "segyio", None)
+    with pytest.raises(sw.DataError, match=r"line.sgy takes .* segyio.*pip install segyio.*seiswidgets\[files\]"):
+        sw.open_section(tmp_path / "line.sgy", z_unit="m")
+
+
+def test_no_file_stays_open(tmp_path):
+    (tmp_path / "line.sgy").write_bytes(segy_bytes(np.ones((2, 3)), straight(2)))
+    np.savez(tmp_path / "line.npz", a=np.ones((2, 2)))
+    before = set(os.listdir("/proc/self/fd")) if os.path.exists("/proc/self/fd") else None
+    sw.open_section(tmp_path / "line.sgy", z_unit="m")
+    with pytest.raises(sw.SettingError, match="inline 5"):
+        sw.open_section(tmp_path / "line.sgy", z_unit="m", inline=5)
+    sw.open_section(tmp_path / "line.npz", z_unit="m", dx=1, dz=1)
+    if before is not None:
+        assert set(os.listdir("/proc/self/fd")) == before

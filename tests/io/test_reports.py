@@ -1,0 +1,58 @@
+import json
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.io.reports import _plain
+from tests.io.restored import NAUGHTY, restored
+
+
+def test_json_holds_the_numbers_of_the_reports(tmp_path):
+    sw.save_report(restored(True), tmp_path / "report.json")
+    found = json.loads((tmp_path / "report.json").read_text("utf-8"))
+    assert found["section"]["name"] == NAUGHTY
+    assert found["section"]["shape"] == list(restored(True).original.shape)
+    for stage, made in zip(found["stages"], restored(True).stages, strict=True):
+        report = made.report
+        assert (stage["kind"], stage["picks"]) == (report.kind, list(report.picks))
+        assert stage["energy"] == report.energy
+        assert stage["area_ratio"] == {str(percent): value for percent, value in report.area_ratio.items()}
+        assert [cutoff["throw"] for cutoff in stage["cutoffs"]] == [cutoff.throw for cutoff in report.cutoffs]
+        assert [bed["flatness"] for bed in stage["beds"]] == [bed.flatness for bed in report.beds]
+
+
+def test_what_is_not_finite_is_none_in_json():
+    assert _plain({1: (np.nan, np.float64("inf"), 2.5)}) == {"1": [None, None, 2.5]}
+
+
+class Tags(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.tags, self.text = set(), ""
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.add(tag)
+
+    def handle_data(self, data):
+        self.text += data
+
+
+def test_names_are_text_in_a_page(tmp_path):
+    sw.save_report(restored(True), tmp_path / "report.html")
+    page = Tags()
+    page.feed((tmp_path / "report.html").read_text("utf-8"))
+    assert page.tags <= {"html", "meta", "title", "style", "h1", "h2", "p", "table", "tr", "th", "td"}
+    assert f"unfault {NAUGHTY}" in page.text
+    assert "data: <b>us</b>" in page.text
+
+
+def test_nothing_restored_is_said(tmp_path):
+    sw.save_report(sw.Restoration(restored().original), tmp_path / "report.html")
+    assert "Nothing has been restored yet" in (tmp_path / "report.html").read_text("utf-8")
+
+
+def test_another_ending_is_refused(tmp_path):
+    with pytest.raises(sw.SettingError, match=r"report.pdf must end in .json or .html"):
+        sw.save_report(restored(), tmp_path / "report.pdf")
