@@ -30,6 +30,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.stage": ["Stage"],
         "geology.weights": ["Weights"],
         "io": ["datasets"],
+        "io.picks": ["read_picks", "write_picks"],
         "widgets.pane": ["SectionPane"],
     },
 )
