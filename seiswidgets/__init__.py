@@ -30,7 +30,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.stage": ["Stage"],
         "geology.weights": ["Weights"],
         "io": ["datasets"],
+        "io.autosave": ["Autosave"],
         "io.picks": ["read_picks", "write_picks"],
+        "io.session": ["Session", "open_session"],
+        "io.sources": ["SectionSource"],
         "widgets.pane": ["SectionPane"],
     },
 )

@@ -63,7 +63,7 @@ def _columns(path, header):
 def text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
     """The table for an interpretation; every number comes back as it was."""
     table = io.StringIO(newline="")
-    writer = csv.writer(table, lineterminator="\n")
+    writer = csv.writer(table)
     writer.writerow([*COLUMNS[:3], f"x ({x_unit})", f"z ({z_unit})"])
     for fault in interpretation.faults:
         writer.writerows([FAULT, fault.name, 1, x, z] for x, z in fault.points.tolist())
