@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.picks.lines import FAULT, HORIZON, Line, without_single_points
+from seiswidgets.io.picks.lines import FAULT, HORIZON, Line
 
 BESIDE = 0.01  # of the line's length: how far from it a pick may lie
 
@@ -56,22 +56,20 @@ def fault_lines(path: Path, nodes: list[Node], choices: Choices) -> tuple[Line, 
     seismic, nodes = _on_one_line(path, nodes, choices.line)
     sticks = _grouped(nodes, lambda node: (node.name, node.part))
     several = Counter(name for name, _ in sticks)
-    lines = [
+    return tuple(
         _line(path, FAULT, f"{name} {part}" if several[name] > 1 else name, stick, seismic, choices)
         for (name, part), stick in sticks.items()
-    ]
-    return without_single_points(path, lines)
+    )
 
 
 def horizon_lines(path: Path, nodes: list[Node], choices: Choices) -> tuple[Line, ...]:
     """The pieces of each horizon: one ends where a trace has no pick, or is not the next one."""
     seismic, nodes = _on_one_line(path, nodes, choices.line)
-    lines = [
+    return tuple(
         _line(path, HORIZON, name, piece, seismic, choices)
         for name, horizon in _grouped(nodes, lambda node: node.name).items()
         for piece in _pieces(horizon, seismic)
-    ]
-    return without_single_points(path, lines)
+    )
 
 
 def _on_one_line(path, nodes, line):
@@ -101,7 +99,7 @@ def _pieces(nodes, seismic):
     jumps = abs(np.diff(traces))
     step = jumps[jumps > 0].min(initial=np.inf)
     breaks = (jumps > 1.5 * step) | (jumps == 0) if np.isfinite(step) else np.zeros(len(jumps), bool)
-    other = [one.part != next_one.part for one, next_one in pairwise(nodes)]
+    other = np.array([one.part != next_one.part for one, next_one in pairwise(nodes)], bool)
     parts = np.cumsum(np.append(0, breaks | other | (np.diff(there) != 0)))
     kept = [(part, node) for part, node, pick in zip(parts, nodes, there, strict=True) if pick]
     return [[node for _, node in piece] for piece in _grouped(kept, lambda pair: pair[0]).values()]

@@ -1,7 +1,6 @@
 """The two doors: picks from a file, and picks into one."""
 
 import os
-from functools import partial
 from pathlib import Path
 
 from seiswidgets.errors import DataError, SettingError
@@ -10,7 +9,7 @@ from seiswidgets.geology.section import Section
 from seiswidgets.io.atomic import write_atomically
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
 from seiswidgets.io.picks.exports import Along, Choices
-from seiswidgets.io.picks.lines import Found, Line, in_section_units, interpretation
+from seiswidgets.io.picks.lines import Found, Line, in_section_units, interpretation, without_single_points
 
 OURS = {"geojson": geojson, "csv": table}
 EXPORTS = {
@@ -70,9 +69,17 @@ def read_picks(
         If single points of an export were left out, because they make no line.
     """
     path = Path(path)
-    found = _read(path, _format(path, format, (*OURS, *EXPORTS)), Choices(line, along, section.x0))
+    chosen = _format(path, format, (*OURS, *EXPORTS))
+    if chosen in OURS:
+        found = OURS[chosen].read(path)
+        lines = found.lines
+    else:
+        found = EXPORTS[chosen](path, Choices(line, along, section.x0))
+        lines = without_single_points(path, found.lines)
+        if not z_up:
+            _check_sign(path, lines, section)
     found = Found(
-        _turned(path, found.lines, z_up, section),
+        _turned(lines) if z_up else lines,
         _unit(path, "x_unit", found.x_unit, x_unit),
         _unit(path, "z_unit", found.z_unit, z_unit),
     )
@@ -124,11 +131,6 @@ def _format(path, asked, known):
     return chosen
 
 
-def _read(path, chosen, choices):
-    read = OURS[chosen].read if chosen in OURS else partial(EXPORTS[chosen], choices=choices)
-    return read(path)
-
-
 def _unit(path, axis, stated, given):
     """The file's unit, stated or given; both must not differ."""
     if stated is not None and given is not None and stated != given:
@@ -138,10 +140,12 @@ def _unit(path, axis, stated, given):
     return given if stated is None else stated
 
 
-def _turned(path, lines, z_up, section):
+def _turned(lines):
     """The lines with z down."""
-    if z_up:
-        return tuple(Line(line.kind, line.name, tuple((x, -z) for x, z in line.points), line.place) for line in lines)
+    return tuple(Line(line.kind, line.name, tuple((x, -z) for x, z in line.points), line.place) for line in lines)
+
+
+def _check_sign(path, lines, section):
+    """Refuse an export whose z must grow upwards, though nobody said so."""
     if lines and section.z0 >= 0 and all(z < 0 for line in lines for _, z in line.points):
         raise DataError(f"{path}: all z are negative, so they seem to grow upwards; if so, say it by z_up=True")
-    return lines

@@ -99,12 +99,11 @@ def _factor(path, axis, unit, wanted, section):
     return family[unit] / family[wanted]
 
 
-def without_single_points(path: Path, lines: list[Line]) -> tuple[Line, ...]:
+def without_single_points(path: Path, lines: tuple[Line, ...]) -> tuple[Line, ...]:
     """The lines of two points or more; a warning tells of the others, which exports have beside faults."""
-    kept = tuple(line for line in lines if len(line.points) > 1)
-    lost = [line.name for line in lines if len(line.points) < 2]
-    if lost:
-        names = ", ".join(repr(name) for name in dict.fromkeys(lost))
-        message = f"{path}: left out {len(lost)} single points, which make no line, of {names}"
-        warnings.warn(message, stacklevel=7)  # where read_picks was called
-    return kept
+    alone = [line.name for line in lines if len(line.points) < 2]
+    if alone:
+        names = ", ".join(repr(name) for name in dict.fromkeys(alone))
+        message = f"{path}: left out {len(alone)} points that stand alone and make no line, of {names}"
+        warnings.warn(message, stacklevel=3)  # where read_picks was called
+    return tuple(line for line in lines if len(line.points) > 1)
