@@ -1,4 +1,4 @@
-"""Opens files that were damaged in many ways, in a process of its own: run by test_damaged_files.py.
+"""Opens files that were damaged in many ways, in a process of its own: run by test_damaged_sections.py.
 
 Prints what came of it: how many opened, how many were refused, the slowest in seconds of work, and the memory in kB
 that all of them took beside what a sound file takes.

@@ -1,0 +1,46 @@
+"""Lines in the CPS-3 format, as Petrel and others export them."""
+
+from pathlib import Path
+
+import numpy as np
+
+from seiswidgets.errors import DataError
+from seiswidgets.io.document import read_text
+from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines
+from seiswidgets.io.picks.lines import Found
+from seiswidgets.io.picks.numbers import number, undefined
+from seiswidgets.io.picks.opendtect import rows
+
+HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written, nothing that places a pick
+
+
+def read_horizons(path: Path, choices: Choices) -> Found:
+    """A horizon as "CPS-3 lines": a row ``->`` before each piece, then a row X Y Z a point.
+
+    Rows of a header begin with FF or FS. The horizon is called as the file; what stands behind the arrow is not used.
+    """
+    return Found(horizon_lines(path, _nodes(path), choices))
+
+
+def read_faults(path: Path, choices: Choices) -> Found:
+    """Faults as "CPS-3 lines": as for horizons, each piece a fault, called as the file, with a number if several."""
+    return Found(fault_lines(path, _nodes(path), choices))
+
+
+def _nodes(path):
+    nodes, block = [], 0
+    for place, row in rows(read_text(path)):
+        if row.lstrip().startswith("->"):
+            block += 1
+        elif not row.lstrip().startswith(HEADER):
+            nodes.append(_node(path, place, row, block))
+    return nodes
+
+
+def _node(path, place, row, block):
+    values = row.split()
+    if len(values) != 3:
+        raise DataError(f"{path}: {place} must be X, Y and Z, but has {len(values)} values; export it again with Z")
+    x, y = (number(path, place, what, text) for what, text in zip("XY", values, strict=False))
+    z = np.nan if undefined(values[2]) else number(path, place, "Z", values[2])
+    return Node({"": np.nan}, path.stem, str(block), x, y, z, place)

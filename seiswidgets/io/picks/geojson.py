@@ -1,0 +1,57 @@
+"""Picks as GeoJSON: a feature a pick, with the units and the version of the format beside the features."""
+
+from pathlib import Path
+
+from seiswidgets.errors import DataError
+from seiswidgets.geology.picks import Interpretation
+from seiswidgets.io.document import Entry, json_text, read_json
+from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
+
+MARK = "seiswidgets_picks"  # a foreign member, as RFC 7946 allows
+VERSION = 1
+GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}
+
+
+def read(path: Path) -> Found:
+    """Lines of a FeatureCollection whose member ``seiswidgets_picks`` holds version, x_unit and z_unit.
+
+    A fault is a LineString, a horizon a MultiLineString of its pieces; ``properties`` hold kind and name. Positions
+    are (x, z) on the section, not longitude and latitude.
+    """
+    document = read_json(path)
+    mark = document[MARK]
+    if (version := mark["version"].number()) > VERSION:
+        raise DataError(f"{path} is in version {version:g} of our GeoJSON, this is for {VERSION}; update seiswidgets")
+    lines = [line for feature in document["features"].items() for line in _lines(feature)]
+    return Found(tuple(lines), mark["x_unit"].text(), mark["z_unit"].text())
+
+
+def _lines(feature: Entry):
+    properties, geometry = feature["properties"], feature["geometry"]
+    kind = properties["kind"].text()
+    if kind not in GEOMETRY:
+        raise properties["kind"].error("'fault' or 'horizon'")
+    if geometry["type"].text() != GEOMETRY[kind]:
+        raise geometry["type"].error(f"{GEOMETRY[kind]!r} for a {kind}")
+    drawn = geometry["coordinates"]
+    name = properties["name"].text()
+    pieces = [drawn] if kind == FAULT else drawn.items()
+    if not pieces:
+        raise drawn.error("a list of pieces")
+    return [Line(kind, name, piece.points(), piece.place) for piece in pieces]
+
+
+def text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
+    """The document for an interpretation; every number comes back as it was."""
+    faults = [_feature(FAULT, fault.name, fault.points.tolist()) for fault in interpretation.faults]
+    horizons = [
+        _feature(HORIZON, horizon.name, [piece.tolist() for piece in horizon.pieces])
+        for horizon in interpretation.horizons
+    ]
+    mark = {"version": VERSION, "x_unit": x_unit, "z_unit": z_unit}
+    return json_text({"type": "FeatureCollection", MARK: mark, "features": faults + horizons})
+
+
+def _feature(kind, name, coordinates):
+    geometry = {"type": GEOMETRY[kind], "coordinates": coordinates}
+    return {"type": "Feature", "properties": {"kind": kind, "name": str(name)}, "geometry": geometry}

@@ -1,0 +1,109 @@
+"""Lines as a file of picks has them, and the interpretation that they make."""
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+import shapely
+
+from seiswidgets.errors import DataError, PickError
+from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.section import METRES, SECONDS, Section
+
+FAULT, HORIZON = "fault", "horizon"
+LONG = 2_000  # points; in a longer line the place of a crossing is not looked for, which takes seconds there
+
+Points = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class Line:
+    """A fault, or a piece of a horizon, as points (x, z); and where in the file it is."""
+
+    kind: str
+    name: str
+    points: Points
+    place: str
+
+
+@dataclass(frozen=True)
+class Found:
+    """The lines of a file, and their units where it states them."""
+
+    lines: tuple[Line, ...]
+    x_unit: str | None = None
+    z_unit: str | None = None
+
+
+def interpretation(path: Path, lines: tuple[Line, ...]) -> Interpretation:
+    """The picks that lines make: one of each name, horizons with all of their pieces.
+
+    Raises
+    ------
+    DataError
+        If a line cannot be a pick; it names the file, the place and the pick.
+    """
+    named: dict[tuple[str, str], list[Line]] = {}
+    for line in lines:
+        named.setdefault((line.kind, line.name), []).append(line)
+    made = {FAULT: [], HORIZON: []}
+    for (kind, name), pieces in named.items():
+        made[kind].append(_pick(path, kind, name, pieces))
+    return Interpretation(tuple(made[FAULT]), tuple(made[HORIZON]))
+
+
+def _pick(path, kind, name, pieces):
+    if kind == FAULT and len(pieces) > 1:
+        raise DataError(
+            f"{path}: {pieces[1].place} is a second line of fault {name!r}, after {pieces[0].place}; a fault is one "
+            "line, so give each a name of its own"
+        )
+    for piece in pieces:
+        if len(piece.points) > LONG and not shapely.LineString(piece.points).is_simple:
+            raise DataError(f"{path}: {piece.place} crosses or touches itself, as part of {kind} {name!r}; redraw it")
+    points = [piece.points for piece in pieces]
+    try:
+        return Fault(points[0], name) if kind == FAULT else Horizon(*points, name=name)
+    except PickError as error:
+        raise DataError(f"{path}: {pieces[0].place}: {error}") from error
+
+
+def in_section_units(path: Path, found: Found, section: Section) -> tuple[Line, ...]:
+    """The lines in the units of a section; untouched where these are the file's own."""
+    scale = tuple(
+        _factor(path, axis, getattr(found, axis), getattr(section, axis), section) for axis in ("x_unit", "z_unit")
+    )
+    return found.lines if scale == (1, 1) else tuple(_scaled(line, scale) for line in found.lines)
+
+
+def _scaled(line, scale):
+    return Line(line.kind, line.name, tuple((x * scale[0], z * scale[1]) for x, z in line.points), line.place)
+
+
+def _factor(path, axis, unit, wanted, section):
+    """How many of the section's units one of the file's is."""
+    known = METRES if axis == "x_unit" else METRES | SECONDS
+    if unit is None:
+        raise DataError(f"{path} does not say its {axis}; give {axis}=, one of {', '.join(known)}")
+    if unit not in known:
+        raise DataError(f"{path}: {axis} must be one of {', '.join(known)}, but is {unit!r}")
+    if unit == wanted:
+        return 1
+    family = METRES if unit in METRES else SECONDS
+    if wanted not in family:
+        kinds = ("depth", "two-way time") if family is METRES else ("two-way time", "depth")
+        raise DataError(
+            f"{path} is in {kinds[0]} ({unit}) and the section in {kinds[1]} ({wanted}); export the picks in "
+            f"{kinds[1]}, or open a section in {kinds[0]}"
+        )
+    return family[unit] / family[wanted]
+
+
+def without_single_points(path: Path, lines: tuple[Line, ...]) -> tuple[Line, ...]:
+    """The lines of two points or more; a warning tells of the others, which exports have beside faults."""
+    alone = [line.name for line in lines if len(line.points) < 2]
+    if alone:
+        names = ", ".join(repr(name) for name in dict.fromkeys(alone))
+        message = f"{path}: left out {len(alone)} points that stand alone and make no line, of {names}"
+        warnings.warn(message, stacklevel=3)  # where read_picks was called
+    return tuple(line for line in lines if len(line.points) > 1)

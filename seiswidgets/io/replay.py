@@ -1,0 +1,110 @@
+"""Replaying a session's file without a notebook: the restored section and the report, as files."""
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from seiswidgets import __version__
+from seiswidgets.geology.restoration import Restoration
+from seiswidgets.io.atomic import write_atomically
+from seiswidgets.io.session import Session, open_session
+from seiswidgets.io.sources import npz
+
+
+@dataclass(frozen=True)
+class Replay:
+    """What a session came to."""
+
+    session: Session
+    restored: Restoration
+    files: tuple[Path, ...]
+
+
+def replayed(
+    path: Path,
+    folder: Path,
+    name: str,
+    progress: Callable[[int, int, int], None] | None = None,
+    *,
+    allow_outside: bool = False,
+    allow_changed: bool = False,
+) -> Replay:
+    """Restore the session in a file and write its restored section and its reports into a folder.
+
+    These are ``name-restored.npz``, ``name-report.txt`` and ``name-report.json``.
+
+    Parameters
+    ----------
+    path, folder : Path
+    name : str
+        Of the files.
+    progress : callable(step, steps, iteration), optional
+        Called after each iteration, steps and iterations counted from 1.
+    allow_outside, allow_changed : bool
+        As for `open_session` and `Session.restore`.
+
+    Raises
+    ------
+    SeiswidgetsError
+        Any of ours.
+    """
+    session = open_session(path, allow_outside=allow_outside)
+    steps = sum(step.on for step in session.plan.steps)
+    counted = None if progress is None else _counted(progress, steps)
+    restored = session.restore(counted, allow_changed=allow_changed)
+    contents = {  # endings that keep them from replacing the session or its section in the same folder
+        "-restored.npz": npz(restored.section),
+        "-report.txt": _text(path, session, restored).encode(),
+        "-report.json": _json(path, session, restored).encode(),
+    }
+    files = tuple(folder / f"{name}{ending}" for ending in contents)
+    for file, content in zip(files, contents.values(), strict=True):
+        write_atomically(file, content)
+    return Replay(session, restored, files)
+
+
+def output_names(paths: Sequence[Path]) -> list[str]:
+    """A name for the output of each session: its own, with its folder's and a number where it is not the only one."""
+    names = []
+    for path in paths:
+        several = sum(other.stem == path.stem for other in paths) > 1
+        wanted = f"{path.absolute().parent.name}-{path.stem}" if several else path.stem
+        name, count = wanted, 2
+        while name in names:
+            name, count = f"{wanted}-{count}", count + 1
+        names.append(name)
+    return names
+
+
+def _counted(progress, steps):
+    def told(step, iteration, energy):
+        progress(step + 1, steps, iteration)
+
+    return told
+
+
+def _text(path, session, restored):
+    parts = [f"{path}: {restored.original!r}", *(f"left out: {problem}" for problem in session.problems)]
+    parts += [str(stage.report) for stage in restored.stages] or ["no step had anything to work on"]
+    return "\n\n".join(parts) + "\n"
+
+
+def _json(path, session, restored):
+    report = {
+        "session": str(path),
+        "seiswidgets": __version__,
+        "section_sha256": session.sha256,
+        "left_out": session.problems,
+        "stages": [asdict(stage.report) for stage in restored.stages],
+    }
+    return json.dumps(_finite(report), indent=1, allow_nan=False) + "\n"
+
+
+def _finite(value):
+    """Null for what is not finite, which JSON cannot hold."""
+    if isinstance(value, dict):
+        return {key: _finite(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(part) for part in value]
+    return None if isinstance(value, float) and value - value != 0 else value

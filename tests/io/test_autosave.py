@@ -1,0 +1,219 @@
+import os
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import replace
+
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.errors import DataError
+from seiswidgets.io.autosave import found
+from seiswidgets.io.savedpicks import SavedPick
+
+SESSION = sw.Session(sw.SectionSource("dataset", "f3"), None)
+QUICK = {"behind": 0.01, "again": 0.01}
+
+
+def session(number):
+    """Sessions that differ: their fault lies elsewhere."""
+    return replace(SESSION, faults=(SavedPick("F1", (((number, 0.0), (number, 9.0)),)),))
+
+
+def wait_for(condition, seconds=20.0):
+    """Wait until a condition holds; how long that took."""
+    begun = time.monotonic()
+    while not condition():
+        if time.monotonic() - begun > seconds:
+            pytest.fail("the condition did not come to hold")
+        threading.Event().wait(0.002)
+    return time.monotonic() - begun
+
+
+@pytest.fixture
+def path(tmp_path):
+    """Where to save; the test must leave no thread and no unfinished file behind."""
+    before = set(threading.enumerate())
+    yield tmp_path / "line.json"
+    assert set(threading.enumerate()) == before
+    assert not list(tmp_path.rglob("*.tmp"))
+
+
+class Disk:
+    """Makes `os.replace` fail with a reason while there is one."""
+
+    def __init__(self, monkeypatch):
+        self.reason, self.tries, self._replace = None, 0, os.replace
+        monkeypatch.setattr(os, "replace", self)
+
+    def __call__(self, *paths):
+        self.tries += 1
+        if self.reason:
+            raise OSError(*self.reason)
+        self._replace(*paths)
+
+
+@pytest.fixture
+def disk(monkeypatch):
+    return Disk(monkeypatch)
+
+
+def test_an_edit_is_saved_within_a_second(path):
+    with sw.Autosave(path) as autosave:
+        autosave.save(session(1))
+        assert wait_for(lambda: found(path)) < 1
+        assert found(path)[0].session == session(1)
+        wait_for(lambda: autosave.pending is None)
+
+
+def test_edits_close_together_are_saved_once_and_none_waits_for_the_last(path, disk):
+    with sw.Autosave(path, behind=0.1) as autosave:
+        begun, number = time.monotonic(), 0
+        while not found(path):  # edits go on and on, and yet they are saved
+            assert time.monotonic() - begun < 5
+            number += 1
+            autosave.save(session(number))
+        assert number > 10
+        assert disk.tries == 1
+    assert found(path)[0].session == session(number)
+
+
+def test_the_last_ten_versions_stay_the_newest_first(path):
+    with sw.Autosave(path, **QUICK) as autosave:
+        for number in range(14):
+            autosave.save(session(number))
+            wait_for(lambda: autosave.pending is None)
+    versions = found(path)
+    assert [version.session for version in versions] == [session(number) for number in range(13, 3, -1)]
+    assert [version.path.name for version in versions[:2]] == ["line.000014.json", "line.000013.json"]
+    assert len(list(path.parent.iterdir())) == 10
+    with sw.Autosave(path, keep=3, **QUICK) as autosave:
+        autosave.save(session(99))
+    assert [version.path.name for version in found(path)] == [
+        "line.000015.json",
+        "line.000014.json",
+        "line.000013.json",
+    ]
+
+
+def test_nothing_is_saved_twice(path, disk):
+    with sw.Autosave(path, **QUICK) as autosave:
+        for _ in range(3):
+            autosave.save(session(1))
+            wait_for(lambda: autosave.pending is None)
+    assert disk.tries == 1
+
+
+def test_closing_saves_what_waits(path):
+    with sw.Autosave(path, behind=60.0) as autosave:
+        autosave.save(session(5))
+    assert found(path)[0].session == session(5)
+    with pytest.raises(DataError, match="is closed and saves no more"):
+        autosave.save(session(6))
+    autosave.close()
+
+
+@pytest.mark.parametrize("reason", [(28, "No space left on device"), (30, "Read-only file system")])
+def test_a_full_or_read_only_disk_is_told_once_and_tried_until_it_works(path, disk, reason):
+    told = []
+    with sw.Autosave(path, report=told.append, **QUICK) as autosave:
+        disk.reason = reason
+        autosave.save(session(1))
+        wait_for(lambda: disk.tries > 5)
+        assert autosave.pending == session(1)
+        autosave.save(session(2))
+        assert not found(path)
+        disk.reason = None
+        wait_for(lambda: len(told) == 2)
+        assert found(path)[0].session == session(2)
+    assert isinstance(told[0], DataError)
+    assert reason[1] in str(told[0])
+    assert told[1] is None
+
+
+def test_a_folder_that_goes_and_comes_back(path):
+    told = []
+    folder, aside = path.parent / "work", path.parent / "aside"
+    folder.mkdir()
+    with sw.Autosave(folder / "line.json", report=told.append, **QUICK) as autosave:
+        autosave.save(session(1))
+        wait_for(lambda: autosave.pending is None)
+        folder.rename(aside)
+        folder.write_text("a file in its place")
+        autosave.save(session(2))
+        wait_for(lambda: told)
+        folder.unlink()
+        aside.rename(folder)
+        wait_for(lambda: autosave.pending is None)
+    assert "cannot be written: Not a directory" in str(told[0])
+    assert [version.session for version in found(folder / "line.json")] == [session(2), session(1)]
+
+
+def test_closing_while_the_disk_is_full_tells_and_keeps(path, disk):
+    disk.reason = (28, "No space left on device")
+    autosave = sw.Autosave(path, **QUICK)
+    autosave.save(session(1))
+    with pytest.raises(DataError, match="No space left on device"):
+        autosave.close()
+    assert autosave.pending == session(1)
+
+
+def test_an_error_in_what_is_reported_to_does_not_end_the_saving(path, disk, caplog):
+    disk.reason = (28, "No space left on device")
+    with sw.Autosave(path, report=lambda error: 1 / 0, **QUICK) as autosave:
+        autosave.save(session(1))
+        wait_for(lambda: disk.tries > 2)
+        disk.reason = None
+    assert found(path)[0].session == session(1)
+    assert "ZeroDivisionError" in caplog.text
+
+
+def test_damaged_versions_are_left_out(path):
+    with sw.Autosave(path, **QUICK) as autosave:
+        for number in range(3):
+            autosave.save(session(number))
+            wait_for(lambda: autosave.pending is None)
+    newest, middle, _ = found(path)
+    newest.path.write_bytes(newest.path.read_bytes()[:-30])
+    (path.parent / "line.000009.json").mkdir()
+    (path.parent / "other.000009.json").write_text("{}")
+    assert [version.path for version in found(path)] == [middle.path, path.with_name("line.000001.json")]
+    assert found(path.parent / "nowhere" / "line.json") == []
+
+
+KILLED = """
+import os, sys, threading
+sys.path.insert(0, {root!r})
+import seiswidgets as sw
+from tests.io.test_autosave import session
+autosave = sw.Autosave({path!r}, behind=0.0)
+for number in range(100000):
+    autosave.save(session(number))
+    print(number, flush=True)
+"""
+
+
+def test_a_process_that_is_killed_leaves_only_complete_versions(path):
+    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    code = KILLED.format(root=root, path=str(path))
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
+        wait_for(lambda: len(found(path)) > 5, seconds=60)
+        process.kill()
+        process.stdout.read()
+    versions = found(path)
+    assert 9 <= len(versions) <= 11  # killed between a new version and the deletion of an old one
+    assert len(versions) == len(list(path.parent.glob("line.*.json")))
+    for unfinished in path.parent.glob(".*.tmp"):  # what the killed process was at
+        unfinished.unlink()
+
+
+def test_what_waits_is_saved_when_the_process_ends(path):
+    code = (
+        f"import seiswidgets as sw\n"
+        f"autosave = sw.Autosave({str(path)!r}, behind=60.0)\n"
+        "autosave.save(sw.Session(sw.SectionSource('dataset', 'f3'), None))\n"
+    )
+    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    subprocess.run([sys.executable, "-c", code], cwd=root, check=True)
+    assert found(path)[0].session == SESSION

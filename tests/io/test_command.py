@@ -1,0 +1,153 @@
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets import __main__ as command
+from seiswidgets.io.replay import output_names
+from seiswidgets.io.sources import npz
+
+ROOT = Path(__file__).parents[2]
+PLAN = sw.Plan(spacing=90.0)
+
+
+@pytest.fixture
+def saved(tmp_path):
+    """The file of a session, alone in a folder."""
+    case = sw.synthetic.faulted_fold()
+    source = sw.SectionSource("synthetic", "faulted_fold")
+    path = tmp_path / "in" / "session.json"
+    path.parent.mkdir()
+    sw.Session.of(case.section, source, case.interpretation, case.fixed, PLAN).save(path)
+    return path
+
+
+def run(*arguments, code=None):
+    """The command in a process of its own, warnings being errors."""
+    call = ["-c", code, *arguments] if code else ["-m", "seiswidgets", *arguments]
+    return subprocess.run(
+        [sys.executable, "-W", "error", *map(str, call)], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+
+
+def test_it_restores_without_jupyter(saved, tmp_path):
+    code = (
+        "import sys; from seiswidgets.__main__ import main; status = main(sys.argv[1:]); "
+        "loaded = {name.partition('.')[0] for name in sys.modules}; "
+        "print(*loaded & {'IPython', 'anywidget', 'ipycanvas', 'ipywidgets', 'traitlets', 'matplotlib'}); "
+        "sys.exit(status)"
+    )
+    result = run("restore", saved, "--out", tmp_path / "out", code=code)
+    assert (result.returncode, result.stdout.strip()) == (0, "")
+    assert result.stderr == f"{saved}: 2 steps, in {tmp_path / 'out' / 'session-report.txt'}\n"
+
+
+def test_it_writes_the_section_and_the_reports(saved, tmp_path, capsys):
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "new" / "out")]) == 0
+    restored = sw.open_session(saved).restore()
+    out = tmp_path / "new" / "out"
+    source = sw.SectionSource("file", str(out / "session-restored.npz"))
+    np.testing.assert_array_equal(source.open().amplitude, restored.section.amplitude)
+    assert source.open().extent == restored.section.extent
+    report = json.loads((out / "session-report.json").read_text())
+    assert [stage["kind"] for stage in report["stages"]] == ["unfault", "flatten"]
+    assert report["stages"][0]["vertices"] == restored.stages[0].report.vertices
+    assert report["session"] == str(saved)
+    assert report["left_out"] == []
+    text = (out / "session-report.txt").read_text()
+    assert "unfault F1" in text
+    assert "bed length" in text
+
+
+def test_results_in_the_same_folder_leave_the_session_and_its_section(tmp_path, capsys):
+    case = sw.synthetic.tilt()
+    (tmp_path / "line.npz").write_bytes(npz(case.section))
+    source = sw.SectionSource("file", str(tmp_path / "line.npz"))
+    sw.Session.of(case.section, source, case.interpretation, None, PLAN).save(tmp_path / "line.json")
+    before = {file: file.read_bytes() for file in tmp_path.iterdir()}
+    assert command.main(["restore", str(tmp_path / "line.json"), "--out", str(tmp_path)]) == 0
+    assert {file: file.read_bytes() for file in before} == before
+    assert len(list(tmp_path.iterdir())) == 5
+
+
+def test_errors_are_words_and_the_other_sessions_go_on(saved, tmp_path):
+    damaged = tmp_path / "damaged.json"
+    damaged.write_text(saved.read_text().replace('"version": 1', '"version": 77'))
+    result = run("restore", damaged, tmp_path / "none.json", saved, "--out", tmp_path / "out")
+    assert result.returncode == 1
+    first, second, third = result.stderr.splitlines()
+    assert first.startswith(f"{damaged} is a session in version 77")
+    assert second.startswith(f"there is no file {tmp_path / 'none.json'}") or "none.json" in second
+    assert third.startswith(f"{saved}: 2 steps")
+    assert "Traceback" not in result.stderr
+    assert len(os.listdir(tmp_path / "out")) == 3
+
+
+def test_picks_that_cannot_be_restored_name_the_session(saved, tmp_path, capsys):
+    document = json.loads(saved.read_text())
+    document["picks"]["fixed"] = [1e6, 0]
+    saved.write_text(json.dumps(document))
+    assert command.main(["restore", str(saved), "--out", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.startswith(f"{saved}: fixed lies outside the section")
+
+
+def test_lines_left_out_are_told(saved, tmp_path, capsys):
+    document = json.loads(saved.read_text())
+    document["picks"]["faults"].append({"name": "F2", "points": [[0, 0], [2, 2], [2, 0], [0, 2]]})
+    saved.write_text(json.dumps(document))
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "out")]) == 0
+    assert f"{saved}: left out: fault 'F2' crosses itself" in capsys.readouterr().err
+    assert "left out: fault 'F2' crosses itself" in (tmp_path / "out" / "session-report.txt").read_text()
+
+
+def test_a_section_outside_or_changed_must_be_allowed(saved, tmp_path, capsys):
+    document = json.loads(saved.read_text())
+    (tmp_path / "line.npz").write_bytes(npz(sw.synthetic.faulted_fold(seed=1).section))
+    document["section"]["source"] = {"kind": "file", "path": "../line.npz"}
+    saved.write_text(json.dumps(document))
+    call = ["restore", str(saved), "--out", str(tmp_path / "out")]
+    for allowed, status, told in [
+        ([], 1, "lies outside the session's folder"),
+        (["--allow-outside"], 1, "is not the one that the session was made on"),
+        (["--allow-outside", "--allow-changed"], 0, "2 steps"),
+    ]:
+        assert command.main([*call, *allowed]) == status
+        assert told in capsys.readouterr().err
+
+
+def test_a_folder_that_cannot_be_made_is_told(saved, tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "file" / "out")]) == 1
+    assert "cannot be made: Not a directory; choose another folder" in capsys.readouterr().err
+
+
+def test_sessions_of_the_same_name_keep_apart():
+    paths = [Path("ann/session.json"), Path("bob/session.json"), Path("x/bob/session.json"), Path("bob/other.json")]
+    assert output_names(paths) == ["ann-session", "bob-session", "bob-session-2", "other"]
+
+
+def test_the_bar_fills_where_somebody_watches(saved, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "out")]) == 0
+    lines = capsys.readouterr().err.split("\r")
+    assert len(lines) > 3
+    assert "step 1 of 2, iteration 1" in lines[0]
+    filled = [line.count("#") for line in lines[:-1]]
+    assert filled == sorted(filled)
+    assert filled[-1] > filled[0]
+    assert lines[-1].strip() == f"{saved}: 2 steps, in {tmp_path / 'out' / 'session-report.txt'}"
+
+
+def test_version_help_and_wrong_calls():
+    assert run("--version").stdout == f"seiswidgets {sw.__version__}\n"
+    result = run("restore", "--help")
+    assert (result.returncode, result.stderr) == (0, "")
+    for word in ("session.json", "--out DIR", "--allow-outside", "-restored.npz", "Exit status"):
+        assert word in result.stdout
+    assert run().returncode == 2
+    assert "--out" in run("restore", "x.json").stderr

@@ -1,0 +1,354 @@
+import json
+import os
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.errors import DataError, PickError, SettingError
+from seiswidgets.io.savedpicks import SavedPick
+from seiswidgets.io.sources import npz, section_sha256
+from tests.sections import real_section
+
+SYNTHETIC = sw.SectionSource("synthetic", "faulted_fold", {"throw": 120.0, "horizons": [700.0, 1000.0], "seed": 3})
+PLAN = sw.Plan(
+    (sw.Step("unfault", ("F1",)), sw.Step("flatten", ("H2",), datum=950.0), sw.Step("flatten", on=False)),
+    sw.Weights(stitch=7.5, edge=1 / 3),
+    spacing=70.0,
+)
+LOOKS = {("fault", "F1"): {"colour": "#e69f00"}, ("horizon", "H2"): {"colour": "teal", "visible": False}}
+CROSSED = ((0.0, 0.0), (20.0, 20.0), (20.0, 0.0), (0.0, 20.0))
+
+
+@pytest.fixture(scope="module")
+def case():
+    return sw.synthetic.faulted_fold(throw=120.0, horizons=[700.0, 1000.0], seed=3)
+
+
+@pytest.fixture(scope="module")
+def session(case):
+    return sw.Session.of(case.section, SYNTHETIC, case.interpretation, case.fixed, PLAN, LOOKS)
+
+
+@pytest.fixture
+def saved(session, tmp_path):
+    """A session's file, and what it holds."""
+    session.save(tmp_path / "session.json")
+    return tmp_path / "session.json", json.loads((tmp_path / "session.json").read_text())
+
+
+def changed(saved, change):
+    """The session's file after a change of what it holds."""
+    path, document = saved
+    change(document)
+    path.write_text(json.dumps(document))
+    return path
+
+
+def with_file(tmp_path, section):
+    """A session whose section is a file in its folder."""
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "line.npz").write_bytes(npz(section))
+    return sw.SectionSource("file", str(tmp_path / "data" / "line.npz"))
+
+
+def assert_same(one, other):
+    assert len(one.stages) == len(other.stages)
+    for stage, again in zip(one.stages, other.stages, strict=True):
+        np.testing.assert_allclose(again.vertices, stage.vertices, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(other.section.amplitude, one.section.amplitude, rtol=0, atol=1e-9)
+
+
+def test_a_session_comes_back_as_it_was(session, saved):
+    again = sw.open_session(saved[0])
+    assert again == session
+    assert again.plan == PLAN
+    assert again.faults[0].colour == "#e69f00"
+    assert [(pick.colour, pick.visible) for pick in again.horizons] == [(None, True), ("teal", False)]
+    assert again.written_by == f"seiswidgets {sw.__version__}"
+
+
+def test_it_gives_the_same_restoration(case, saved):
+    restored = PLAN.restore(case.section, case.interpretation, case.fixed)
+    assert_same(restored, sw.open_session(saved[0]).restore())
+
+
+@pytest.mark.parametrize("name", ["f3", "teapot"])
+def test_real_sections_give_the_same_restoration(tmp_path, name):
+    section, picks = real_section(name)
+    session = sw.Session.of(section, sw.SectionSource("dataset", name), picks, plan=sw.Plan(spacing=80.0))
+    session.save(tmp_path / "session.json")
+    assert_same(session.plan.restore(section, picks), sw.open_session(tmp_path / "session.json").restore())
+
+
+def test_progress_is_told_and_can_cancel(session):
+    with pytest.raises(sw.Cancelled, match="cancel"):
+        session.restore(lambda step, iteration, energy: False)
+
+
+def test_the_file_can_be_read_by_a_person(saved):
+    text = saved[0].read_text()
+    assert '"format": "seiswidgets session"' in text
+    assert '"version": 1' in text
+    x, z = saved[1]["picks"]["faults"][0]["points"][0]
+    assert f"[{x!r}, {z!r}]" in text
+
+
+def test_lines_that_cannot_be_used_are_kept_and_told_of(session, tmp_path):
+    drawn = replace(
+        session,
+        faults=(*session.faults, SavedPick("F2", (CROSSED,))),
+        horizons=(replace(session.horizons[0], pieces=(*session.horizons[0].pieces, CROSSED)), session.horizons[1]),
+    )
+    drawn.save(tmp_path / "session.json")
+    again = sw.open_session(tmp_path / "session.json")
+    assert again == drawn
+    assert [fault.name for fault in again.interpretation.faults] == ["F1"]
+    assert len(again.interpretation.horizons[0].pieces) == len(session.horizons[0].pieces)
+    assert [problem[:40] for problem in again.problems] == [
+        "fault 'F2' crosses itself near x=10, z=1",
+        "piece 3 of horizon 'H1' crosses itself n",
+    ]
+
+
+def test_a_fault_is_one_line(session):
+    with pytest.raises(PickError, match="fault 'F' must be one line, but has 2"):
+        replace(session, faults=(SavedPick("F", (CROSSED, CROSSED)),))
+
+
+# --- the section
+
+
+def test_a_section_from_a_file_is_found_where_the_folder_goes(case, tmp_path):
+    source = with_file(tmp_path, case.section)
+    session = sw.Session.of(case.section, source, case.interpretation, case.fixed, PLAN)
+    session.save(tmp_path / "session.json")
+    assert json.loads((tmp_path / "session.json").read_text())["section"]["source"]["path"] == "data/line.npz"
+    moved = tmp_path.rename(tmp_path.with_name("elsewhere"))
+    again = sw.open_session(moved / "session.json")
+    assert section_sha256(again.open_section()) == session.sha256
+    assert again.source.name == str(moved / "data" / "line.npz")
+
+
+def test_a_section_that_differs_is_told_of(case, tmp_path):
+    source = with_file(tmp_path, case.section)
+    session = sw.Session.of(case.section, source, case.interpretation, case.fixed, PLAN)
+    amplitude = case.section.amplitude.copy()
+    amplitude[3, 4] += 1e-3
+    other = replace(case.section, amplitude=amplitude)
+    (tmp_path / "data" / "line.npz").write_bytes(npz(other))
+    with pytest.raises(DataError, match=r"line.npz' is not the one that the session was made on.*allow_changed=True"):
+        session.restore()
+    assert session.restore(allow_changed=True).stages
+
+
+@pytest.mark.parametrize(
+    "change", [{"dx": 13.0}, {"z0": 1.0}, {"x_unit": "ft"}, {"z_unit": "ms", "velocity": 2000.0}, {"amplitude": None}]
+)
+def test_the_hash_holds_shape_geometry_and_amplitudes(case, change):
+    if "amplitude" in change:
+        change = {"amplitude": case.section.amplitude[:-1]}
+    assert section_sha256(replace(case.section, **change)) != section_sha256(case.section)
+
+
+def test_the_hash_leaves_out_names_and_kinds_of_nan(case):
+    assert section_sha256(replace(case.section, name="other", credit="us")) == section_sha256(case.section)
+    one, other = (case.section.amplitude.copy() for _ in range(2))
+    one[0, 0] = np.nan
+    other.view(np.uint32)[0, 0] = 0x7FC00001
+    assert np.isnan(other[0, 0])
+    hashes = [section_sha256(replace(case.section, amplitude=amplitude)) for amplitude in (one, other)]
+    assert hashes[0] == hashes[1]
+
+
+def test_paths_cannot_leave_the_folder_unless_allowed(case, saved, tmp_path):
+    outside = tmp_path.with_name(f"{tmp_path.name}-outside")
+    outside.mkdir()
+    (outside / "line.npz").write_bytes(npz(case.section))
+    (tmp_path / "link.npz").symlink_to(outside / "line.npz")
+    (tmp_path / "folder").symlink_to(outside)
+    for name in (f"../{outside.name}/line.npz", str(outside / "line.npz"), "link.npz", "folder/line.npz"):
+        source = {"kind": "file", "path": name}
+        path = changed(saved, lambda document, source=source: document["section"].update(source=source))
+        with pytest.raises(
+            DataError, match=r"section.source.path: .* lies outside the session's folder .*allow_outside"
+        ):
+            sw.open_session(path)
+        section = sw.open_session(path, allow_outside=True).open_section()
+        assert section_sha256(section) == section_sha256(case.section)
+    path = changed(saved, lambda document: document["section"]["source"].update(path="a/../not-there.npz"))
+    with pytest.raises(DataError, match=r"not-there.npz cannot be opened as a section"):
+        sw.open_session(path).open_section()
+
+
+@pytest.mark.parametrize("name", ["a\0b", "\ud800", "x" * 5000])
+def test_paths_that_no_file_can_have_are_refused(saved, name):
+    path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": name}))
+    with pytest.raises(DataError, match=r"session.json|cannot be opened"):
+        sw.open_session(path).open_section()
+
+
+def test_nothing_is_unpickled(saved, tmp_path):
+    np.savez(tmp_path / "evil.npz", amplitude=np.array([[{}]], dtype=object))
+    path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": "evil.npz"}))
+    with pytest.raises(DataError, match=r"evil.npz cannot be opened as a section: .*allow_pickle=False"):
+        sw.open_session(path).open_section()
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "choices", "error", "match"),
+    [
+        ("web", "x", {}, SettingError, "source must be 'file', 'synthetic', 'dataset', but is 'web'"),
+        (
+            "synthetic",
+            "__import__",
+            {},
+            SettingError,
+            "the synthetic section must be one of planar_fault, .* '__import__'",
+        ),
+        ("dataset", "located", {}, SettingError, "the dataset section must be one of f3, teapot"),
+        ("synthetic", "tilt", {"dip": {}}, SettingError, r"dip must be a finite number, .* but is \{\}"),
+        ("synthetic", "tilt", {"dip": float("nan")}, SettingError, "dip must be a finite number"),
+        ("synthetic", "tilt", {"dip": "steep"}, DataError, "the section cannot be made with {'dip': 'steep'}"),
+        (
+            "synthetic",
+            "tilt",
+            {"deep": 3},
+            DataError,
+            "the section cannot be made with {'deep': 3}.*correct its source",
+        ),
+        ("synthetic", "tilt", {"seed": -1}, DataError, "the section cannot be made with {'seed': -1}"),
+        (
+            "synthetic",
+            "tilt",
+            {"dx": 1, "dz": 1},
+            SettingError,
+            "of 8000000 samples is too large; make dx or dz larger",
+        ),
+        ("dataset", "f3", {"speed": 3}, DataError, "the section cannot be made with {'speed': 3}"),
+        ("file", "line.sgy", {}, DataError, "line.sgy cannot be opened"),
+    ],
+)
+def test_sources_that_make_no_section(kind, name, choices, error, match):
+    with pytest.raises(error, match=match):
+        sw.SectionSource(kind, name, choices).open()
+
+
+# --- versions
+
+
+OLD = {  # version 0: see docs/formats.md
+    "format": "seiswidgets session",
+    "version": 0,
+    "dataset": "teapot",
+    "faults": [{"name": "F1", "points": [[100, 600], [200, 700]]}],
+    "horizons": [{"name": "H1", "pieces": [[[0, 600], [90, 610]]]}],
+    "fixed": [50, 650],
+    "steps": ["flatten"],
+    "weights": {"edge": 2},
+}
+
+
+def test_sessions_of_version_0_open(tmp_path):
+    path = tmp_path / "old.json"
+    path.write_text(json.dumps(OLD))
+    session = sw.open_session(path)
+    assert session == sw.Session(
+        sw.SectionSource("dataset", "teapot"),
+        None,
+        (SavedPick("F1", (((100.0, 600.0), (200.0, 700.0)),)),),
+        (SavedPick("H1", ((((0.0, 600.0), (90.0, 610.0))),)),),
+        (50.0, 650.0),
+        sw.Plan((sw.Step("flatten"),), sw.Weights(edge=2.0)),
+    )
+    session.save(tmp_path / "new.json")
+    assert sw.open_session(tmp_path / "new.json") == session
+
+
+def test_an_old_session_without_steps_has_the_usual_ones(tmp_path):
+    path = tmp_path / "old.json"
+    path.write_text(json.dumps({key: OLD[key] for key in ("format", "version", "dataset")}))
+    assert sw.open_session(path).plan == sw.Plan()
+
+
+@pytest.mark.parametrize("version", [2, 10**3000])
+def test_newer_versions_say_so(saved, version):
+    path = changed(saved, lambda document: document.update(version=version))
+    with pytest.raises(DataError, match=rf"session.json is a session in version \d+, and seiswidgets {sw.__version__}"):
+        sw.open_session(path)
+
+
+# --- damage
+
+
+@pytest.mark.parametrize(
+    ("change", "match"),
+    [
+        (lambda d: d.pop("format"), "is not a session of seiswidgets"),
+        (lambda d: d.update(version="1"), "version must be a whole number, but is '1'"),
+        (lambda d: d.update(version=True), "version must be a whole number, but is true"),
+        (lambda d: d.pop("section"), "lacks 'section'"),
+        (lambda d: d["section"].pop("source"), "section lacks 'source'"),
+        (lambda d: d["section"]["source"].update(kind="web"), "section.source: a section's source must be"),
+        (lambda d: d["section"]["source"].update(name="exec"), "section.source: the synthetic section must be one of"),
+        (lambda d: d["section"]["source"].update(arguments={"dip": {}}), "arguments.dip must be a number"),
+        (lambda d: d["section"].update(sha256="abc"), "section.sha256 must be a SHA-256"),
+        (lambda d: d["picks"].update(faults={}), r"picks.faults must be a list \[...\], but is an object of 0"),
+        (lambda d: d["picks"]["faults"][0]["points"].insert(5, [1]), r"picks.faults\[0\].points\[5\] must be a point"),
+        (lambda d: d["picks"]["faults"][0]["points"].insert(5, ["1", 2]), r"points\[5\] must be a point"),
+        (
+            lambda d: d["picks"]["horizons"][1]["pieces"][1].insert(2, [1, 1e13]),
+            r"horizons\[1\].pieces\[1\]\[2\] must be",
+        ),
+        (lambda d: d["picks"]["faults"][0].update(name=3), r"picks.faults\[0\].name must be text, but is 3"),
+        (
+            lambda d: d["picks"]["faults"].append(d["picks"]["faults"][0]),
+            r"faults\[1\].name must be a name that no other",
+        ),
+        (lambda d: d["picks"]["faults"][0].update(colour="red;x:url(y)"), r"faults\[0\].colour must be #rrggbb or"),
+        (lambda d: d["picks"]["faults"][0].update(visible=1), r"faults\[0\].visible must be true or false, but is 1"),
+        (lambda d: d["picks"].update(fixed=[1, 2, 3]), "picks.fixed must be a point .* but is a list of 3"),
+        (
+            lambda d: d["plan"].update(steps=[{"kind": "fold"}]),
+            r"plan.steps\[0\]: a step must be 'unfault' or 'flatten'",
+        ),
+        (lambda d: d["plan"]["steps"][0].update(picks="F1"), r"plan.steps\[0\].picks must be a list"),
+        (lambda d: d["plan"]["weights"].update(edge=-1), "plan.weights: weight edge must be a number of 0 or more"),
+        (lambda d: d["plan"]["weights"].update(hedge=1), "plan.weights must be an object of weights, mean_value"),
+        (lambda d: d["plan"].update(solver="magic"), "plan: solver must be 'gauss-newton' or"),
+        (lambda d: d["plan"].update(spacing="wide"), "plan.spacing must be a number"),
+    ],
+)
+def test_damage_is_told_with_file_and_place(saved, change, match):
+    path = changed(saved, change)
+    with pytest.raises(DataError, match=match) as caught:
+        sw.open_session(path)
+    assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "match"),
+    [
+        (b"", "is not valid JSON"),
+        (b'{"format": ' * 50_000, "nested more deeply"),
+        (b"[" * 200_000, "nested more deeply"),
+        (b'{"format": "seiswidgets session", "version": NaN}', "NaN is no number in JSON"),
+        ('{"format": "seiswidgets session"}'.encode("utf-16"), "is not UTF-8 text: byte 0xff at 0"),
+        (b"[1, 2]", "must be an object"),
+    ],
+)
+def test_what_is_no_session_is_told(tmp_path, content, match):
+    path = tmp_path / "session.json"
+    path.write_bytes(content)
+    with pytest.raises(DataError, match=match):
+        sw.open_session(path)
+
+
+def test_saving_leaves_the_old_file_when_it_fails(session, saved, tmp_path, monkeypatch):
+    before = saved[0].read_bytes()
+    monkeypatch.setattr(os, "fsync", lambda handle: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+    with pytest.raises(DataError, match=r"session.json cannot be written: No space left on device"):
+        replace(session, fixed=None).save(saved[0])
+    assert saved[0].read_bytes() == before
+    assert os.listdir(tmp_path) == ["session.json"]
