@@ -138,14 +138,20 @@ class Cut:
         (forward, known), (backward, _) = self._copies(edges), self._copies(edges[:, ::-1])
         return np.where(known[:, None], forward, backward[:, ::-1])
 
+    @cached_property
+    def _half_edges_in_order(self):
+        """Keys of the whole mesh's half-edges in order, and which half-edge each belongs to."""
+        keys = self.whole.half_edges @ [len(self.whole.vertices), 1]
+        order = np.argsort(keys)
+        return keys[order], order
+
     def _copies(self, directed):
         """Ends of each directed edge in the triangle that follows it in its own sense, and whether there is one."""
-        keys = self.whole.half_edges @ [len(self.whole.vertices), 1]
+        keys, order = self._half_edges_in_order
         wanted = directed @ [len(self.whole.vertices), 1]
-        order = np.argsort(keys)
-        half_edge = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
-        corners = self.mesh.triangles.ravel()
-        return np.column_stack([corners[half_edge], corners[_next(half_edge)]]), keys[half_edge] == wanted
+        place = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+        corners, half_edge = self.mesh.triangles.ravel(), order[place]
+        return np.column_stack([corners[half_edge], corners[_next(half_edge)]]), keys[place] == wanted
 
 
 def _next(half_edge):

@@ -120,8 +120,10 @@ def edges_along(mesh: Mesh, line, spacing: float) -> np.ndarray:
     """
     tolerance = 2 * MERGED * spacing
     shapely.prepare(line)
-    near = shapely.dwithin(line, shapely.points(mesh.vertices), tolerance)
-    edges = mesh.edges[near[mesh.edges].all(axis=1)]
+    low, high = np.reshape(line.bounds, (2, 2)) + [[-tolerance], [tolerance]]
+    near = ((mesh.vertices >= low) & (mesh.vertices <= high)).all(axis=1)  # spares most of them the exact question
+    near[near] = shapely.dwithin(line, shapely.points(mesh.vertices[near]), tolerance)
+    edges = mesh.edges[near[mesh.edges[:, 0]] & near[mesh.edges[:, 1]]]
     middle = shapely.points(mesh.vertices[edges].mean(axis=1))
     on_line = shapely.dwithin(line, middle, tolerance)
     edges, middle = edges[on_line], middle[on_line]

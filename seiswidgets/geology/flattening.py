@@ -1,22 +1,42 @@
 """Unfolding: making a horizon level while it keeps its length (the paper's section 3.2)."""
 
 import time
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from shapely import LineString
 
+from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
 from seiswidgets.geology.faultlines import merged
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.report import BedReport
-from seiswidgets.geology.solving import Options, solved, vertex_masses
+from seiswidgets.geology.solving import Options, laid_before, solved, vertex_masses, warm_start
 from seiswidgets.geology.stage import Stage, staged
 from seiswidgets.geology.unfaulting import length_change
 
 JOINED = 0.5  # of the mesh spacing: ends of two pieces that lie closer are one place
+
+
+@dataclass(frozen=True, eq=False)
+class Bed:
+    """A mesh with a horizon among its edges.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    edges : array, shape (k, 2)
+        Those of the horizon.
+    task : tuple
+        What it was made for.
+    """
+
+    mesh: Mesh
+    edges: np.ndarray
+    task: tuple
 
 
 def flattened(ground: Ground, name: str, pieces, datum: float | None, options: Options) -> Stage:
@@ -34,14 +54,16 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     options : Options
     """
     began = time.perf_counter()
-    lines = _inside(joined(pieces, ground.spacing), ground, name)
-    mesh = ground.mesh(lines)
-    bed = np.concatenate([edges_along(mesh, line, ground.spacing) for line in lines])
+    task = ground.task({name: pieces})
+    laid = laid_before(options.start, task) or _bed(ground, name, pieces, task)
+    mesh, bed = laid.mesh, laid.edges
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
     level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
     free = np.ones(len(mesh.vertices), bool)
     terms = _terms(mesh, bed, level, options.weights)
-    solution = solved(mesh, terms, mesh.vertices, free, ground.spacing, options, ground.where)
+    start = warm_start(mesh, free, options.start)
+    start = mesh.vertices if start is None else start
+    solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where)
     vertices = solution.vertices.copy()
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=vertex_masses(mesh))
     vertices[:, 0] -= drift  # how far the whole moves sideways costs nothing: let it move least
@@ -51,7 +73,15 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     )
     unmet = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
     seconds = time.perf_counter() - began
-    return staged("flatten", (name,), ground, mesh, vertices, solution, options, seconds, beds=(report,), unmet=unmet)
+    return staged(
+        "flatten", (name,), ground, mesh, vertices, solution, options, seconds, laid, beds=(report,), unmet=unmet
+    )
+
+
+def _bed(ground, name, pieces, task):
+    lines = _inside(joined(pieces, ground.spacing), ground, name)
+    mesh = ground.mesh(lines)
+    return Bed(mesh, np.concatenate([edges_along(mesh, line, ground.spacing) for line in lines]), task)
 
 
 def _terms(mesh, bed, level, weights):

@@ -55,6 +55,17 @@ class Ground:
             return triangulate(self.outline, lines, self.asked)
         return triangulate_to(self.outline, lines, VERTICES)
 
+    def task(self, *drawn: dict) -> tuple:
+        """What shapes a stage's mesh, for comparison: two stages with equal tasks have the same mesh.
+
+        Parameters
+        ----------
+        *drawn : dict of str to list of LineString
+            Faults by name, horizons by name: as many of these as the stage has use for.
+        """
+        lines = tuple(tuple((name, *(line.wkb for line in pieces)) for name, pieces in kind.items()) for kind in drawn)
+        return self.outline.wkb, self.asked, self.slack, lines
+
     def where(self, point) -> str:
         """A place in the words of the section: with its units."""
         x, z = self.section.from_rock(point)

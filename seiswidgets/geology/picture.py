@@ -44,8 +44,8 @@ def _reach(original, stages):
     """First and last column and row that the rock reaches, in samples of the original."""
     if not stages:
         return np.zeros(2), np.array(original.shape[::-1]) - 1.0
-    corners = np.stack([corner(stages[-1].vertices, axis=0) for corner in (np.min, np.max)])
-    return _in_samples(original, corners)
+    vertices = stages[-1].vertices
+    return np.transpose(_in_samples(original, np.stack([vertices.min(axis=0), vertices.max(axis=0)])))
 
 
 def _origins(original, stages, x, z):
@@ -58,8 +58,10 @@ def _origins(original, stages, x, z):
     )
     for stage in reversed(stages[:-1]):
         places = stage.map.inverse(places)
-    return _in_samples(original, places).T.reshape(2, len(z), len(x))
+    return [line.reshape(len(z), len(x)) for line in _in_samples(original, places)]
 
 
 def _in_samples(original, places):
-    return (original.from_rock(places) - (original.x0, original.z0)) / (original.dx, original.dz)
+    """Columns and rows of places in the rock, counted in samples of the original."""
+    first, step = np.array([original.x0, original.z0]), np.array([original.dx, original.dz])
+    return [places[:, k] / (original.metres[k] * step[k]) - first[k] / step[k] for k in (0, 1)]

@@ -55,7 +55,6 @@ def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where, adr
     FlippedError
         If triangles are turned over at the end; it says how many and where the first is.
     """
-    start = _warm(mesh, start, free, options.start)
     settings = (TOLERANCE * spacing, options.max_iterations, options.progress)
     if options.solver == GAUSS_NEWTON:
         return gauss_newton(terms, mesh.triangles, start, anchored(mesh) if adrift else free, *settings)
@@ -87,18 +86,30 @@ def anchored(mesh: Mesh) -> np.ndarray:
     return free
 
 
-def _warm(mesh, start, free, earlier):
-    """The earlier stage's deformation on this mesh, if it is there and turns nothing over; else the start as given."""
+def laid_before(earlier, task):
+    """What an earlier stage laid out for just this task, None if its task was another or there is none."""
+    return earlier.laid if earlier is not None and earlier.laid.task == task else None
+
+
+def warm_start(mesh: Mesh, free, earlier) -> np.ndarray | None:
+    """An earlier stage's deformation on this mesh, shape (n, 2); None if there is none, or it turns triangles over."""
     if earlier is None:
-        return start
-    corners = mesh.triangles.ravel()
-    centres = np.repeat(mesh.vertices[mesh.triangles].mean(axis=1), 3, axis=0)
-    inside = mesh.vertices.copy()  # a vertex on a cut belongs to the side where its triangles are
-    inside[corners] += 1e-3 * (centres - mesh.vertices[corners])
-    moved = earlier.map.forward(mesh.vertices, earlier.map.source_finder(inside))
+        return None
+    if earlier.laid.mesh is mesh:
+        moved = earlier.vertices[: len(mesh.vertices)].copy()  # a weld adds vertices behind the mesh's own
+    else:
+        moved = earlier.map.forward(mesh.vertices, earlier.map.source_finder(_on_own_side(mesh)))
     moved[~free] = mesh.vertices[~free]
     lost = ~np.isfinite(moved).all() or triangle_areas(moved, mesh.triangles).min() <= 0
-    return start if lost else moved
+    return None if lost else moved
+
+
+def _on_own_side(mesh):
+    """The vertices drawn a little into one of their triangles each: a vertex on a cut lies on that side of it."""
+    corner = np.empty(len(mesh.vertices), int)
+    corner[mesh.triangles.ravel()] = np.arange(mesh.triangles.size)
+    centres = mesh.vertices[mesh.triangles[corner // 3]].mean(axis=1)
+    return mesh.vertices + 1e-3 * (centres - mesh.vertices)
 
 
 def nearest_rigid(rest, moved, masses) -> np.ndarray:

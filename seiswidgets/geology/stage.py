@@ -39,6 +39,8 @@ class Stage:
         What the step started from.
     found : Report
         What the solver reached; ``report`` adds what asks for the outline.
+    laid : Blocks or Bed
+        The mesh before it was welded, and where the picks lie in it: a later stage of the same task takes it over.
     whole : Stage, optional
         The step that this is only a part of.
     """
@@ -49,6 +51,7 @@ class Stage:
     faults: tuple[LineString, ...]
     ground: Ground
     found: Report
+    laid: object
     whole: "Stage | None" = None
 
     def __post_init__(self):
@@ -132,7 +135,9 @@ class Stage:
         return LineString(moved) if len(moved) > 1 else None
 
 
-def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faults=(), unmet=(), **reported) -> Stage:
+def staged(
+    kind, picks, ground, mesh, vertices, solution, options, seconds, laid, faults=(), unmet=(), **reported
+) -> Stage:
     """The stage that a solution makes."""
     ratio = deformation.area_ratio(mesh, vertices)
     percentiles = deformation.weighted_percentiles(ratio, mesh.areas, PERCENTS)
@@ -154,7 +159,7 @@ def staged(kind, picks, ground, mesh, vertices, solution, options, seconds, faul
         unmet=unmet,
         **reported,
     )
-    return Stage(kind, mesh, vertices, faults, ground, found)
+    return Stage(kind, mesh, vertices, faults, ground, found, laid)
 
 
 def _energy(solution):

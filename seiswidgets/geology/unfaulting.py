@@ -5,10 +5,11 @@ from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
+from shapely import LineString
 
 from seiswidgets.core.contact import Contact, contacts
 from seiswidgets.core.finder import triangle_at
-from seiswidgets.core.mesh import Cut
+from seiswidgets.core.mesh import Cut, Mesh
 from seiswidgets.core.rigid import rigid_blocks
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along
@@ -19,7 +20,15 @@ from seiswidgets.geology.faultlines import EDGES, fault_lines, with_points
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.parts import parts
 from seiswidgets.geology.report import BedReport, CutOffReport, SeamReport
-from seiswidgets.geology.solving import GAUSS_NEWTON, Options, nearest_rigid, solved, vertex_masses
+from seiswidgets.geology.solving import (
+    GAUSS_NEWTON,
+    Options,
+    laid_before,
+    nearest_rigid,
+    solved,
+    vertex_masses,
+    warm_start,
+)
 from seiswidgets.geology.stage import Stage, staged
 
 
@@ -38,6 +47,8 @@ class Blocks:
         For each of the cut-offs its vertex in the hanging wall and in the footwall.
     beds : dict of str to list of array, shape (k, 2)
         The edges of each part of each horizon.
+    task : tuple
+        What they were made for.
     """
 
     cut: Cut
@@ -46,6 +57,12 @@ class Blocks:
     cutoffs: list[CutOffs]
     stitches: np.ndarray
     beds: dict[str, list[np.ndarray]]
+    task: tuple
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh, cut."""
+        return self.cut.mesh
 
     @property
     def reach(self) -> float:
@@ -70,12 +87,14 @@ def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Opti
     options : Options
     """
     began = time.perf_counter()
-    blocks = _blocks(ground, faults, horizons)
-    mesh, free = blocks.cut.mesh, _free(blocks.cut.mesh, fixed, ground)
+    task = ground.task({name: [LineString(points)] for name, points in faults.items()}, horizons)
+    blocks = laid_before(options.start, task) or _blocks(ground, faults, horizons, task)
+    mesh, free = blocks.mesh, _free(blocks.mesh, fixed, ground)
     terms = _terms(blocks, options.weights)
-    start = mesh.vertices  # the paper's own start
-    if options.solver == GAUSS_NEWTON:
-        start = _slid_together(mesh, blocks.stitches, free, terms)
+    start = warm_start(mesh, free, options.start)
+    if start is None:
+        slid = options.solver == GAUSS_NEWTON
+        start = _slid_together(mesh, blocks.stitches, free, terms) if slid else mesh.vertices  # the paper's own start
     adrift = bool(free.all())
     solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where, adrift)
     seams, gave_way = _seams(blocks, solution, ground)
@@ -98,12 +117,13 @@ def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Opti
         solution,
         options,
         time.perf_counter() - began,
+        blocks,
         lines,
         **found,
     )
 
 
-def _blocks(ground, faults, horizons):
+def _blocks(ground, faults, horizons, task):
     drawn = fault_lines(faults, ground)
     drawing = Drawing(
         drawn, {name: parts(pieces, list(drawn.values())) for name, pieces in horizons.items()}, ground.where
@@ -117,7 +137,7 @@ def _blocks(ground, faults, horizons):
     beds = {name: [cut.along(edges_along(whole, line, ground.spacing)) for line in bed] for name, bed in beds.items()}
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, drawing, ground)
-    return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds)
+    return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds, task)
 
 
 def _meshed_line(name, line, drawing, ground):
@@ -176,7 +196,7 @@ def _free(mesh, fixed, ground):
 
 
 def _terms(blocks, weights):
-    mesh = blocks.cut.mesh
+    mesh = blocks.mesh
     pairs = blocks.stitches[blocks.stitches[:, 0] != blocks.stitches[:, 1]]  # at a blind tip both are one
     return [
         MeanValue(mesh, weights.mean_value),
@@ -226,7 +246,7 @@ def _seams(blocks, solution, ground):
     for name, pair in zip(blocks.sides, zip(held[::2], held[1::2], strict=True), strict=True):
         gap = overlap = widest = 0.0
         for term, outwards in zip(pair, (1, -1), strict=True):
-            distances, lengths = outwards * term.distances(solution.vertices), term.lengths(blocks.cut.mesh.vertices)
+            distances, lengths = outwards * term.distances(solution.vertices), term.lengths(blocks.mesh.vertices)
             gap += 0.5 * float(lengths @ np.maximum(distances, 0))
             overlap += 0.5 * float(lengths @ np.maximum(-distances, 0))
             widest = max(widest, float(np.max(np.abs(distances), initial=0)))
@@ -240,7 +260,7 @@ def _cutoffs(blocks, vertices, ground):
     """Throw, heave and what is left between each pair of cut-offs, and in words where that is more than the slack."""
     reports, apart = [], []
     for pair, (hanging_wall, footwall) in zip(blocks.cutoffs, blocks.stitches, strict=True):
-        before = ground.section.from_rock(blocks.cut.mesh.vertices[[hanging_wall, footwall]])
+        before = ground.section.from_rock(blocks.mesh.vertices[[hanging_wall, footwall]])
         top, bottom = sorted((blocks.drawing.faults[pair.fault].coords[k] for k in (0, -1)), key=lambda end: end[1])
         misfit = float(np.hypot(*(vertices[hanging_wall] - vertices[footwall])))
         heave = (before[0, 0] - before[1, 0]) * (1 if bottom[0] >= top[0] else -1)

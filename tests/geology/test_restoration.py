@@ -221,6 +221,49 @@ def test_a_warm_start_settles_sooner_in_the_same_place(fold):
     np.testing.assert_allclose(warm.vertices, cold.vertices, atol=1e-3)
 
 
+@pytest.mark.parametrize("change", [{}, {"weights": sw.Weights(mean_value=2.0)}, {"fixed": None}], ids=str)
+def test_the_mesh_is_taken_over_where_nothing_that_shapes_it_has_changed(fold, change):
+    case, restored = fold
+    picks, start, choices = case.interpretation, restored.stages[0], {"fixed": case.fixed, **change}
+    begin = replace(restored, stages=())
+    cold, warm = (begin.unfault(picks.faults, picks.horizons, **choices, start=at).stages[0] for at in (None, start))
+    assert warm.laid is start.laid
+    assert cold.laid is not start.laid
+    np.testing.assert_allclose(
+        warm.vertices[: len(warm.laid.mesh.vertices)], cold.vertices[: len(cold.laid.mesh.vertices)], atol=1e-3
+    )
+
+
+def test_a_datum_leaves_the_mesh_as_it_is(fold):
+    case, restored = fold
+    unfaulted, horizon = replace(restored, stages=restored.stages[:1]), case.interpretation.horizons[1]
+    cold, warm = (unfaulted.flatten(horizon, datum=900.0, start=at).stages[1] for at in (None, restored.stages[1]))
+    assert warm.mesh is restored.stages[1].mesh
+    np.testing.assert_allclose(warm.vertices, cold.vertices, atol=1e-3)
+
+
+def test_the_mesh_is_made_anew_where_the_picks_have_changed(fold):
+    case, restored = fold
+    picks, start, begin = case.interpretation, restored.stages[0], replace(restored, stages=())
+    (fault,), horizons = picks.faults, picks.horizons
+    moved = sw.Fault(fault.points + [1.0, 0.0], name=fault.name)
+    same_name = sw.Fault(fault.points, name=horizons[0].name)
+    for faults, beds in ((moved, horizons), (fault, horizons[:2]), (same_name, horizons)):
+        again = begin.unfault(faults, beds, fixed=case.fixed, start=start).stages[0]
+        assert again.laid is not start.laid
+    finer = replace(begin, spacing=110.0).unfault(fault, horizons, fixed=case.fixed, start=start).stages[0]
+    assert finer.laid is not start.laid
+
+
+def test_the_report_is_made_when_it_is_read(fold):
+    case, restored = fold
+    picks = case.interpretation
+    stage = replace(restored, stages=()).unfault(picks.faults, picks.horizons, fixed=case.fixed).stages[0]
+    assert "report" not in vars(stage)
+    assert stage.report is stage.report
+    assert stage.report.overlap >= 0
+
+
 def test_an_unfinished_solution_says_so(fold):
     case, _ = fold
     picks = case.interpretation
