@@ -132,8 +132,8 @@ function render({ model, el }) {
     if (isEmpty() || width < 1 || height < 1) return;
     const at = scale();
     drawAxes(drawing, bars, at, width, height);
+    if (brush.length) drawBrush(drawing, brush, at, height); // behind the bars, whose colours are those of the map
     drawBars(drawing, bars, at, width, height, brush);
-    if (brush.length) drawBrush(drawing, brush, at, height);
     if (mark !== null) drawMark(drawing, bars, at.barOf(mark), at, width, height);
   }
   function setBrush(brush) {
