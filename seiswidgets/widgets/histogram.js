@@ -107,6 +107,7 @@ function render({ model, el }) {
   el.setAttribute("data-lm-suppress-shortcuts", "true"); // or JupyterLab would take the keys
   const head = line("head", el);
   const summary = line("summary", head);
+  summary.title = "Half, 1% and 99% of the area have a lower area ratio";
   const brushed = line("brushed", head);
   brushed.setAttribute("aria-live", "polite");
   const chart = element("svg", "chart", el, { tabindex: 0, role: "application" });

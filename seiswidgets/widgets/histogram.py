@@ -150,7 +150,7 @@ def _bars(ratio, areas, bins):
 
 def _summary(ratio, areas):
     low, median, high = weighted_percentiles(ratio, areas, (1, 50, 99))
-    return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f} (by area)"
+    return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f}"
 
 
 def ratio_ticks(span: float) -> list[float]:
