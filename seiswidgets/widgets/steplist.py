@@ -47,7 +47,7 @@ class StepRow(VBox):
             tooltip="The level to flatten to; the horizon's mean level if empty",
             continuous_update=False,  # or a half-typed number would be restored to
             style={"description_width": "initial"},
-            layout=Layout(width="156px"),
+            layout=Layout(width="176px"),
         )
         self._error = HTML(layout=Layout(display="none"))
         self.up, self.down, self.remove = (_button(name) for name in ICONS)
