@@ -107,6 +107,7 @@ function render({ model, el }) {
   el.setAttribute("data-lm-suppress-shortcuts", "true"); // or JupyterLab would take the keys
   const head = line("head", el);
   const summary = line("summary", head);
+  summary.title = "Half, 1% and 99% of the area have a lower area ratio";
   const brushed = line("brushed", head);
   brushed.setAttribute("aria-live", "polite");
   const chart = element("svg", "chart", el, { tabindex: 0, role: "application" });
@@ -132,8 +133,8 @@ function render({ model, el }) {
     if (isEmpty() || width < 1 || height < 1) return;
     const at = scale();
     drawAxes(drawing, bars, at, width, height);
+    if (brush.length) drawBrush(drawing, brush, at, height); // behind the bars, whose colours are those of the map
     drawBars(drawing, bars, at, width, height, brush);
-    if (brush.length) drawBrush(drawing, brush, at, height);
     if (mark !== null) drawMark(drawing, bars, at.barOf(mark), at, width, height);
   }
   function setBrush(brush) {

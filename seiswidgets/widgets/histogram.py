@@ -15,7 +15,7 @@ from seiswidgets.widgets.ratiocolours import RatioColouring
 HERE = Path(__file__).parent
 EMPTY = "Nothing restored yet: there is no deformation to show."
 ROUND = (1, 10, 0.1, 100, 0.01, 2, 0.5, 5, 0.2, 1.25, 0.8, 1.1, 0.9, 1.05, 0.95, 1.02, 0.98, 1.01, 0.99, 1.005, 0.995)
-APART = 0.1  # between two ticks at least, as a share of the axis
+APART = 0.09  # between two ticks at least, as a share of the axis
 
 
 class DeformationHistogram(anywidget.AnyWidget):
@@ -150,7 +150,7 @@ def _bars(ratio, areas, bins):
 
 def _summary(ratio, areas):
     low, median, high = weighted_percentiles(ratio, areas, (1, 50, 99))
-    return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f} (by area)"
+    return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f}"
 
 
 def ratio_ticks(span: float) -> list[float]:

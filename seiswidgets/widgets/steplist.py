@@ -39,20 +39,23 @@ class StepRow(VBox):
 
     def __init__(self, step: Step, interpretation: Interpretation, z_unit: str):
         self._on = Checkbox(indent=False, tooltip="Whether this step is done", layout=Layout(width="84px"))
-        self._choice = Dropdown(tooltip="What it works on", layout=Layout(width="auto", min_width="96px", flex="1 1 0"))
+        self._choice = Dropdown(
+            tooltip="What it works on", layout=Layout(width="auto", min_width="96px", flex="1 1 96px")
+        )
         self._datum = Text(
             placeholder="mean level",
             tooltip="The level to flatten to; the horizon's mean level if empty",
             continuous_update=False,  # or a half-typed number would be restored to
             style={"description_width": "initial"},
-            layout=Layout(width="156px"),
+            layout=Layout(width="176px"),
         )
         self._error = HTML(layout=Layout(display="none"))
         self.up, self.down, self.remove = (_button(name) for name in ICONS)
         self._on.observe(lambda change: self._change(on=change.new), "value")
         self._choice.observe(self._choose, "value")
         self._datum.observe(self._enter, "value")
-        line = HBox([self._on, self._choice, self._datum, self.up, self.down, self.remove])
+        controls = [self._on, self._choice, self._datum, self.up, self.down, self.remove]
+        line = HBox(controls, layout=Layout(flex_flow="row wrap"))
         super().__init__([line, self._error], step=step, interpretation=interpretation, z_unit=z_unit)
 
     def _change(self, **changes):

@@ -41,7 +41,9 @@ class Timeline(HBox):
     moment = Unicode()
 
     def __init__(self, labels=(), **traits):
-        self._play = Play(interval=INTERVAL, show_repeat=False, tooltip="Play from today to the end")
+        self._play = Play(
+            interval=INTERVAL, show_repeat=False, tooltip="Play from today to the end", layout=Layout(flex="0 0 88px")
+        )
         self._slider = IntSlider(
             description="Time",
             readout=False,

@@ -73,7 +73,7 @@ class WeightSliders(VBox):
             readout=False,
             description=f"{term.symbol} {term.name}",
             tooltip=term.meaning,
-            style={"description_width": "84px"},
+            style={"description_width": "100px"},
             layout=Layout(flex="1 1 auto", width="auto", min_width="0"),
         )
         slider.observe(partial(self._move, term.field), "value")

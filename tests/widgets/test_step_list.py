@@ -1,0 +1,207 @@
+import numpy as np
+import pytest
+from ipywidgets import Button
+
+import seiswidgets as sw
+from seiswidgets.geology.plan import FLATTEN, UNFAULT
+from tests.widgets.test_pane import loud_callbacks  # noqa: F401
+
+EVIL = "<img src=x onerror=alert(1)>"
+F1, F2 = (sw.Fault([[x, 0], [x, 9]], name) for x, name in ((1, "F1"), (2, EVIL)))
+H1, H2 = (sw.Horizon([[0, z], [9, z]], name=name) for z, name in ((1, "H1"), (2, "H2")))
+PICKS = sw.Interpretation([F1, F2], [H1, H2])
+
+
+@pytest.fixture
+def steps():
+    return sw.StepList(interpretation=PICKS, z_unit="ms")
+
+
+@pytest.fixture
+def told(steps):
+    """The steps of all notifications."""
+    heard = []
+    steps.observe(lambda change: heard.append(change.new), "steps")
+    return heard
+
+
+@pytest.fixture
+def focused(monkeypatch):
+    """The buttons that were given the focus."""
+    buttons = []
+    monkeypatch.setattr(Button, "focus", lambda button: buttons.append(button))
+    return buttons
+
+
+def rows(steps):
+    return steps._table.children
+
+
+def adders(steps):
+    return steps.children[-1].children
+
+
+def labels(row):
+    return [label for label, _ in row._choice.options]
+
+
+def test_it_begins_with_the_steps_of_a_plan(steps):
+    assert steps.steps == sw.Plan().steps
+    assert [row._on.description for row in rows(steps)] == [UNFAULT, FLATTEN]
+    assert [row._datum.layout.display for row in rows(steps)] == ["none", ""]
+
+
+def test_choices_are_the_picks_that_there_are_as_text(steps):
+    unfault, flatten = rows(steps)
+    assert labels(unfault) == ["all faults", "F1", EVIL]
+    assert labels(flatten) == ["first horizon", "H1", "H2"]
+
+
+def test_each_control_changes_its_step_once(steps, told):
+    unfault, flatten = rows(steps)
+    unfault._choice.value = (EVIL,)
+    flatten._on.value = False
+    flatten._datum.value = " 1500.5 "
+    flatten._choice.value = ("H2",)
+    assert len(told) == 4
+    assert steps.steps == (sw.Step(UNFAULT, (EVIL,)), sw.Step(FLATTEN, ("H2",), 1500.5, on=False))
+    flatten._datum.value = ""
+    flatten._choice.value = ()
+    assert steps.steps[1] == sw.Step(FLATTEN, on=False)
+
+
+def test_steps_set_from_code_are_shown_with_one_notification(steps, told):
+    asked = (sw.Step(FLATTEN, ("H1",), 0.1, on=False), sw.Step(UNFAULT, ("F1",)), sw.Step(FLATTEN, ("H2",), 1500))
+    steps.steps = asked
+    assert told == [asked]
+    assert [row.step for row in rows(steps)] == list(asked)
+    assert [row._datum.value for row in rows(steps)] == ["0.1", "", "1500"]
+    assert [row._choice.value for row in rows(steps)] == [("H1",), ("F1",), ("H2",)]
+    assert [row._on.value for row in rows(steps)] == [False, True, True]
+
+
+def test_rows_are_used_again(steps):
+    before = rows(steps)
+    steps.steps = (*steps.steps[::-1], sw.Step(UNFAULT))
+    assert rows(steps)[:2] == before
+    steps.steps = steps.steps[:1]
+    steps.steps = steps.steps * 2
+    assert rows(steps) == before
+
+
+def test_a_row_that_is_gone_is_not_listened_to(steps):
+    gone = rows(steps)[1]
+    steps.steps = steps.steps[:1]
+    gone._datum.value = "12"
+    assert steps.steps == (sw.Step(UNFAULT),)
+
+
+def test_a_step_that_moves_takes_the_focus_along(steps, told, focused):
+    steps.steps = (sw.Step(UNFAULT), sw.Step(FLATTEN, datum=5), sw.Step(FLATTEN))
+    told.clear()
+    rows(steps)[2].up.click()
+    assert [step.datum for step in steps.steps] == [None, None, 5]
+    assert focused.pop() is rows(steps)[1].up
+    rows(steps)[1].up.click()
+    assert [step.kind for step in steps.steps] == [FLATTEN, UNFAULT, FLATTEN]
+    assert focused.pop() is rows(steps)[0].down  # its Up is disabled there
+    rows(steps)[0].down.click()
+    assert focused.pop() is rows(steps)[1].down
+    assert len(told) == 3
+
+
+def test_the_first_cannot_go_up_nor_the_last_down(steps):
+    assert [(row.up.disabled, row.down.disabled) for row in rows(steps)] == [(True, False), (False, True)]
+    adders(steps)[0].click()
+    assert [(row.up.disabled, row.down.disabled) for row in rows(steps)[1:]] == [(False, False), (False, True)]
+
+
+def test_add_and_remove(steps, told, focused):
+    adders(steps)[1].click()
+    adders(steps)[0].click()
+    assert [step.kind for step in steps.steps] == [UNFAULT, FLATTEN, FLATTEN, UNFAULT]
+    rows(steps)[1].remove.click()
+    assert [step.kind for step in steps.steps] == [UNFAULT, FLATTEN, UNFAULT]
+    assert focused.pop() is rows(steps)[1].remove
+    for _ in range(3):
+        rows(steps)[-1].remove.click()
+    assert steps.steps == ()
+    assert rows(steps) == ()
+    assert focused[-1] is adders(steps)[0]
+    adders(steps)[0].click()
+    assert steps.steps == (sw.Step(UNFAULT),)
+    assert len(told) == 7
+
+
+@pytest.mark.parametrize("entry", ["abc", "12 m", "nan", "1e999", "<b>"])
+def test_a_wrong_datum_is_said_beside_it_and_the_last_good_one_kept(steps, told, entry):
+    row = rows(steps)[1]
+    row._datum.value = "1500"
+    row._datum.value = entry
+    assert steps.steps[1].datum == 1500
+    assert len(told) == 1
+    assert row._datum.value == entry
+    assert row._error.layout.display == ""
+    assert "datum must be a finite number" in row._error.value
+    assert "1500 ms is kept" in row._error.value
+    assert "<b>" not in row._error.value
+    row._datum.value = "1600"
+    assert row._error.layout.display == "none"
+    assert steps.steps[1].datum == 1600
+
+
+def test_the_datum_is_labelled_with_its_unit(steps):
+    assert rows(steps)[1]._datum.description == "datum (ms)"
+    steps.z_unit = "m"
+    assert rows(steps)[1]._datum.description == "datum (m)"
+
+
+def test_a_datum_loses_no_digits(steps, told):
+    datum = float(np.random.default_rng(0).uniform(1000, 2000))
+    steps.steps = (sw.Step(FLATTEN, datum=datum),)
+    assert float(rows(steps)[0]._datum.value) == datum
+    assert len(told) == 1
+
+
+def test_picks_that_are_gone_stay_in_the_step_and_are_shown_as_missing(steps, told):
+    unfault, flatten = rows(steps)
+    unfault._choice.value, flatten._choice.value = ("F1",), ("H2",)
+    asked = steps.steps
+    told.clear()
+    steps.interpretation = sw.Interpretation([F2], [H2])
+    assert steps.steps == asked
+    assert told == []
+    assert labels(unfault) == ["all faults", EVIL, "missing: F1"]
+    assert unfault._choice.label == "missing: F1"
+    assert labels(flatten) == ["first horizon", "H2"]
+    steps.interpretation = PICKS
+    assert labels(unfault) == ["all faults", "F1", EVIL]
+    assert unfault._choice.value == ("F1",)
+
+
+def test_several_picks_are_one_more_choice(steps):
+    steps.steps = (sw.Step(UNFAULT, ("F1", "F9")),)
+    (row,) = rows(steps)
+    assert row._choice.label == "F1, missing: F9"
+    row._choice.value = ()
+    assert steps.steps == (sw.Step(UNFAULT),)
+    assert labels(row) == ["all faults", "F1", EVIL]
+
+
+def test_what_is_being_typed_survives_new_picks(steps):
+    row = rows(steps)[1]
+    row._datum.value = "12x"
+    steps.interpretation = sw.Interpretation([F1], [H1])
+    assert row._datum.value == "12x"
+    assert row._error.value
+
+
+def test_what_is_no_step_is_refused(steps):
+    with pytest.raises(sw.SettingError, match=r"steps must be seiswidgets\.Step"):
+        steps.steps = ("unfault",)
+    assert steps.steps == sw.Plan().steps
+
+
+def test_every_button_says_what_it_does(steps):
+    row = rows(steps)[0]
+    assert all(button.icon and button.tooltip for button in (row.up, row.down, row.remove, *adders(steps)))

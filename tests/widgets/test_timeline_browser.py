@@ -1,0 +1,45 @@
+import pytest
+
+from tests.widgets.browser import chromium, lab, notebook  # noqa: F401
+from tests.widgets.test_pane_browser import until
+
+CELL = """
+import seiswidgets as sw
+heard = []
+timeline = sw.Timeline(["unfault", "flatten"])
+timeline.observe(lambda change: heard.append(change.new), "time")
+timeline
+"""
+
+
+@pytest.mark.parametrize("start", [2.0, 0.55])
+def test_play_runs_once_to_the_end(notebook, start):  # noqa: F811
+    opened = notebook(CELL)
+    opened.page.get_by_text("restored", exact=True).wait_for()
+    opened.ask(f"timeline.set_trait('time', {start})")
+    opened.page.get_by_text("restored" if start == 2 else "unfault 55%", exact=True).wait_for()
+    opened.ask("heard.clear()")
+    opened.page.locator(".widget-play button").first.click()
+    until(opened, "heard and timeline.time == 2 and not timeline._play.playing")
+    heard = opened.ask("heard")
+    assert heard == sorted(heard)
+    assert heard[0] == pytest.approx(0 if start == 2 else start, abs=0.11)  # frames may be left out
+    assert len(heard) > 5
+    opened.page.get_by_text("restored", exact=True).wait_for()
+
+
+def test_the_slider_keeps_its_place_after_a_reload(notebook):  # noqa: F811
+    opened = notebook(CELL)
+    opened.page.get_by_text("restored", exact=True).wait_for()
+    opened.ask("timeline.set_trait('time', 0.3)")
+    opened.page.get_by_text("unfault 30%").wait_for()
+    opened.command("docmanager:save")
+    opened.reload()
+    handle = opened.page.locator(".noUi-handle")
+    handle.wait_for()
+    opened.page.get_by_text("unfault 30%").wait_for()
+    assert float(handle.get_attribute("aria-valuenow")) == 6
+    handle.focus()
+    opened.page.keyboard.press("ArrowRight")
+    until(opened, "timeline.time == 0.35")
+    until(opened, "timeline._play.value == 7")  # Play goes on from there
