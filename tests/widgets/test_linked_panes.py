@@ -1,0 +1,145 @@
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.widgets.frame import Frame
+from seiswidgets.widgets.linkedpanes import LinkedPanes
+from tests.widgets.hands import appear, tell
+
+
+@pytest.fixture(scope="module")
+def case():
+    return sw.synthetic.faulted_fold()
+
+
+@pytest.fixture(scope="module")
+def restored(case):
+    return sw.Plan(spacing=80.0).restore(case.section, case.interpretation, fixed=case.fixed)
+
+
+@pytest.fixture
+def panes(restored):
+    panes = LinkedPanes(restored)
+    appear(panes.original, panes.restored)
+    return panes
+
+
+def hover(pane, point):
+    x, y = pane.view.to_pixels(point).tolist()
+    tell(pane, "hover", x=x, y=y)
+
+
+def test_both_panes_fit_the_same_window_which_holds_all_rock(panes, restored):
+    assert panes.original.frame == panes.restored.frame == panes.original.view.window == panes.restored.view.window
+    x_min, x_max, z_min, z_max = panes.original.frame
+    corners = restored.original.from_rock(restored.stages[-1].vertices)
+    slack = 0.01 * np.array([x_max - x_min, z_max - z_min])
+    assert (corners >= (x_min, z_min) - slack).all()
+    assert (corners <= (x_max, z_max) + slack).all()
+
+
+def test_a_section_alone_is_its_own_restoration(case):
+    panes = LinkedPanes(case.section)
+    appear(panes.original, panes.restored)
+    assert panes.restoration.stages == ()
+    assert panes.restored.section is case.section
+    panes.deformation = panes.mesh = 0.5
+    assert panes.original.overlay is None
+    assert panes.original.mesh is None
+
+
+def test_the_layers_carry_points_as_the_restoration_does(panes, restored):
+    assert len(panes.original.layer.chain) == len(panes.restored.layer.chain) == 2
+    first = np.frombuffer(panes.original.layer.chain[0]["source"]).reshape(-1, 2)
+    np.testing.assert_allclose(first, restored.original.from_rock(restored.stages[0].mesh.vertices))
+    last = np.frombuffer(panes.restored.layer.chain[0]["source"]).reshape(-1, 2)
+    np.testing.assert_allclose(last, restored.original.from_rock(restored.stages[-1].vertices))
+
+
+def test_what_is_under_the_pointer_is_read_out_in_units(panes, restored, case):
+    seen = []
+    panes.on_reading(seen.append)
+    point = (1230.0, 780.0)
+    hover(panes.original, point)
+    reading = seen[-1]
+    np.testing.assert_allclose(reading.original, point, atol=1e-6)
+    np.testing.assert_allclose(reading.restored, restored.to_restored([point])[0])
+    column, row = round(point[0] / case.section.dx), round(point[1] / case.section.dz)
+    assert reading.amplitude == pytest.approx(case.section.amplitude[row, column])
+    assert reading.ratio == pytest.approx(restored.area_ratio_at([point])[0])
+    for words in ("1230 m", "depth 780 m", "amplitude", "area ratio", "restored"):
+        assert words in panes._readout.value
+    hover(panes.restored, reading.restored)
+    np.testing.assert_allclose(seen[-1].original, point, atol=1e-3)
+    tell(panes.restored, "leave")
+    assert seen[-1] is None
+    assert "amplitude" not in panes._readout.value
+
+
+def test_beyond_the_rock_there_is_nothing_to_read(panes):
+    seen = []
+    panes.on_reading(seen.append)
+    hover(panes.restored, (-1000.0, -1000.0))
+    assert np.isnan(seen[-1].amplitude)
+    assert np.isnan(seen[-1].ratio)
+
+
+def test_zooms_are_linked_if_that_is_switched_on(panes):
+    panes.original.view = panes.original.view.zoomed(2)
+    assert panes.restored.view.is_fitted
+    panes.zoom_linked = True
+    assert panes.restored.view.window == panes.original.view.window
+    panes.restored.view = panes.restored.view.zoomed(3, (100, 100))
+    assert panes.original.view.window == panes.restored.view.window
+    panes.zoom_linked = False
+    panes.original.fit()
+    assert not panes.restored.view.is_fitted
+
+
+def test_colours_of_the_first_pane_hold_for_both(panes):
+    panes.original.colours, panes.original.gain, panes.original.polarity = "red-white-blue", 2.0, -1
+    assert (panes.restored.colours, panes.restored.gain, panes.restored.polarity) == ("red-white-blue", 2.0, -1)
+    before = panes.restored.limit
+    panes.original.clip = 80.0
+    assert panes.restored.limit < before
+
+
+def test_mesh_and_deformation_are_shown_in_both_panes(panes, restored):
+    panes.mesh = 0.5
+    assert panes.original.mesh_opacity == panes.restored.mesh_opacity == 0.5
+    np.testing.assert_array_equal(panes.restored.mesh[1], restored.stages[-1].mesh.triangles)
+    panes.deformation = 0.7
+    ratio = panes.shown.ratio_before.ratio
+    levels = panes.original.overlay.levels
+    assert levels.shape == ratio.shape
+    order = np.argsort(ratio[np.isfinite(ratio)])
+    assert (np.diff(levels[np.isfinite(ratio)][order].astype(int)) >= 0).all()
+    full = panes.original.overlay.palette
+    panes.brush = [1.0, 1.05]
+    brushed = panes.original.overlay.palette
+    assert (brushed[:, 3] <= full[:, 3]).all()
+    assert (brushed[:, 3] < full[:, 3]).any()
+    np.testing.assert_array_equal(panes.restored.overlay.palette, brushed)
+    panes.deformation = panes.mesh = 0.0
+    assert panes.original.overlay is None
+    assert panes.restored.mesh is None
+
+
+def test_the_ratio_is_taken_where_it_is_drawn(restored):
+    frame = Frame.of(restored)
+    for drawn, back in ((frame.ratio_before, lambda at: at), (frame.ratio_after, restored.to_original)):
+        nz, nx = drawn.ratio.shape
+        x_min, x_max, z_min, z_max = drawn.window
+        row, column = nz // 3, nx // 4
+        at = x_min + (column + 0.5) * (x_max - x_min) / nx, z_min + (row + 0.5) * (z_max - z_min) / nz
+        assert drawn.ratio[row, column] == pytest.approx(restored.area_ratio_at(back([at]))[0])
+
+
+def test_a_frame_while_something_moves_is_small_and_does_not_move_the_window(panes, restored):
+    before = panes.restored.view
+    panes.show(Frame.of(restored.at(0.5), moving=True))
+    assert np.prod(panes.restored.section.shape) <= 160_000
+    assert panes.restored.view.window == before.window
+    assert len(panes.original.layer.chain) == 1
+    panes.restoration = restored.at(1)
+    assert panes.restored.section is restored.at(1).section or panes.restoration.stages == restored.stages[:1]
