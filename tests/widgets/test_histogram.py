@@ -131,7 +131,7 @@ def test_the_brush_stays_when_the_numbers_change(numbers):
     assert widget.brushed == ""
 
 
-def test_edges_of_neighbouring_bars_read_differently(numbers):
+def test_edges_of_neighbouring_bars_read_differently():
     for span in (1.01, 1.3, 5.0):
         bars = sw.DeformationHistogram([1 / span, span]).bars
         texts = [f"{edge:.{bars['decimals']}f}" for edge in bars["edges"]]
