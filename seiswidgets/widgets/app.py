@@ -205,21 +205,20 @@ class RestorationApp(VBox):
         if self._task().steps and not waits:
             return True
         self._restorer.cancel()
-        self.status.hint(THEN if waits else FIRST if not drawn.horizons else "")
-        self.picker.complain({})
-        self._draw(*(2 * [None]))
+        restoration = Restoration(self.section)
+        self._draw(Frame.of(restoration), restoration)
+        self.status.hint(THEN if waits else FIRST)
         return False
 
     def _draw(self, frame, restoration):
-        """Draw what the restorer has made; nothing stands for the section of today."""
-        if frame is None:
-            restoration = Restoration(self.section)
-            frame = Frame.of(restoration)
+        """Draw a restoration; without it a frame is but a quick look."""
         if restoration is None:
             self.panes.show(frame)
         else:
             self._show_whole(frame, restoration)
-        self._say_all_is_well()
+        self.picker.complain({})
+        self.picker.refresh()
+        self.status.hint("")
         self._set_outdated(False)
         ratio = frame.ratio_before.ratio.ravel() if frame.restoration.stages else []
         self.histogram.show(ratio)
@@ -231,12 +230,6 @@ class RestorationApp(VBox):
         self.timeline.labels = [stage.kind for stage in restoration.stages]
         self.timeline.time = len(restoration.stages)
         self.reports.show(restoration)
-
-    def _say_all_is_well(self):
-        self.picker.complain({})
-        if self._task().steps:
-            self.status.hint("")
-        self.picker.refresh()
 
     @observe("restoration")
     def _take_restoration(self, change):

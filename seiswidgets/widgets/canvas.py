@@ -10,7 +10,6 @@ from ipycanvas.canvas import _CANVAS_MANAGER, COMMANDS
 from PIL import Image
 
 LOCK = RLock()  # callbacks may run on several threads, and all canvases share one manager
-JPEG_QUALITY = 80
 
 
 @contextmanager
@@ -35,23 +34,32 @@ def _forget():
     _CANVAS_MANAGER._current_canvas = None
 
 
-def encoded(levels: np.ndarray, palette: np.ndarray, moving: bool = False) -> bytes:
-    """A picture as a PNG with a palette whose colour 0 is transparent, or while it moves as a JPEG, which is faster.
+def encoded(levels: np.ndarray, palette: np.ndarray, quick: bool = False) -> bytes:
+    """A picture as a PNG with a palette, which keeps every colour and what is transparent.
+
+    A JPEG is a third of the size but takes as long to encode (measured at 450 x 300 and 900 x 600), and knows nothing
+    transparent: where there are no data it would flicker between moving and still.
 
     Parameters
     ----------
     levels : array of uint8, shape (height, width)
-    palette : array of uint8, shape (256, 3)
-    moving : bool
+    palette : array of uint8, shape (256, 4)
+        Red, green, blue and opacity.
+    quick : bool
+        Whether time counts more than size.
     """
+    picture = Image.fromarray(levels)
+    picture.putpalette(palette[:, :3].tobytes())
     file = BytesIO()
-    if moving:
-        Image.fromarray(palette[levels]).save(file, "JPEG", quality=JPEG_QUALITY)
-    else:
-        picture = Image.fromarray(levels)
-        picture.putpalette(palette.tobytes())
-        picture.save(file, "PNG", transparency=0, compress_level=3)
+    picture.save(file, "PNG", transparency=palette[:, 3].tobytes(), compress_level=1 if quick else 3)
     return file.getvalue()
+
+
+def resize(canvas: Canvas, width: int, height: int) -> None:
+    """Give a canvas a size, in one message, if it has another; it is empty afterwards."""
+    if (canvas.width, canvas.height) != (width, height):
+        with canvas.hold_sync():
+            canvas.width, canvas.height = width, height
 
 
 def put(canvas: Canvas, picture: bytes) -> None:

@@ -37,9 +37,9 @@ class Colouring:
 
     @property
     def palette(self) -> np.ndarray:
-        """Red, green and blue of each level, shape (256, 3), uint8; of level 0, the colour of no data."""
+        """Red, green, blue and opacity of each level, shape (256, 4), uint8; where there are no data, transparent."""
         colours = colour_map(self.name)(np.linspace(0, 1, 255))
-        return np.rint(255 * np.vstack([mpl.colors.to_rgba(OUTSIDE), colours])[:, :3]).astype(np.uint8)
+        return np.rint(255 * np.vstack([mpl.colors.to_rgba(OUTSIDE, 0), colours])).astype(np.uint8)
 
 
 def colour_map(name: str) -> mpl.colors.Colormap:
@@ -59,14 +59,14 @@ def clip_limit(section: Section, clip: float) -> float:
     return (float(np.percentile(known, clip)) if len(known) else 0.0) or 1.0
 
 
-def resampled(amplitude: np.ndarray, box: tuple[float, float, float, float], size: tuple[int, int]) -> np.ndarray:
-    """Amplitudes averaged onto fewer pixels.
+def resampled(amplitude: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+    """Amplitudes averaged onto fewer pixels, (width, height); NaN where most of a pixel has no data."""
+    known = np.isfinite(amplitude)
+    if known.all():
+        return _averaged(amplitude, size)
+    share, total = _averaged(known, size), _averaged(np.where(known, amplitude, 0), size)
+    return np.divide(total, share, out=np.full(share.shape, np.nan, np.float32), where=share >= 0.5)
 
-    Parameters
-    ----------
-    amplitude : array, shape (nz, nx)
-    box : tuple (left, top, right, bottom)
-        The part that is taken, in cells from the outer corner of the first.
-    size : tuple (width, height)
-    """
-    return np.asarray(Image.fromarray(np.asarray(amplitude, np.float32)).resize(size, Image.Resampling.BOX, box))
+
+def _averaged(values, size):
+    return np.asarray(Image.fromarray(np.asarray(values, np.float32)).resize(size, Image.Resampling.BOX))

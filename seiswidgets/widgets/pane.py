@@ -3,31 +3,30 @@
 from collections.abc import Callable, Sequence
 from html import escape
 
-from ipycanvas import MultiCanvas
+import numpy as np
 from ipywidgets import HTML, GridBox, Layout, VBox
-from traitlets import Enum, Float, Instance, Int, Unicode, observe, validate
+from traitlets import Any, Enum, Float, Instance, Int, Unicode, observe, validate
 
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.canvas import LOCK, held
 from seiswidgets.widgets.colours import Colouring, clip_limit, colour_map
 from seiswidgets.widgets.gestures import Gesture
-from seiswidgets.widgets.overlay import Stroke, draw_strokes
-from seiswidgets.widgets.pointer import Happening, PointerLayer, gesture_of
-from seiswidgets.widgets.texture import detail, whole
-from seiswidgets.widgets.view import View
+from seiswidgets.widgets.navigation import KEYS, Navigation
+from seiswidgets.widgets.overlay import Mark, Overlay, Stroke, map_state, mesh_state
+from seiswidgets.widgets.picture import Picture
+from seiswidgets.widgets.pointer import Happening, PointerLayer, axes_state, gesture_of
+from seiswidgets.widgets.view import View, checked_window
 
 LEFT, TOP, RIGHT, BOTTOM = 64, 10, 16, 42  # css pixels about the plot area, for the axes
-ZOOM = 1.2  # a step of the wheel
-CLOSER = 1.5  # a key
-STRIDE = 60  # css pixels that an arrow key pans
-ARROWS = {"ArrowLeft": (1, 0), "ArrowRight": (-1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
-KEYS = ("0", "+", "=", "-", "_", *ARROWS)
+QUIET = ("hover", "leave", "rest", "size")  # what happens without anybody doing anything, and leaves the message alone
 MESSAGE = '<div role="alert" style="color: var(--jp-error-color1, #b71c1c); line-height: 1.4">{}</div>'
 
 
 class SectionPane(VBox):
     """A section with axes: the wheel zooms at the pointer, a drag pans, a double click or 0 fits, + and - zoom.
+
+    Two fingers zoom and pan as well; the middle button or Space held pan even where a drag does something else.
 
     Parameters
     ----------
@@ -36,12 +35,20 @@ class SectionPane(VBox):
         "greys", "red-white-blue", or any colour map of matplotlib.
     clip : float
         Percentile of the absolute amplitudes at which the colours end, on both sides of 0.
+    limit : float, optional
+        The amplitude at which they end; from ``clip`` if left out.
     gain : float
         Amplitudes are multiplied by it.
     polarity : {1, -1}
         -1 turns peaks into troughs.
     exaggeration : float
         Vertical; that of a pane filled by the whole section if left out.
+    frame : tuple (x_min, x_max, z_min, z_max), optional
+        What is shown when it fits, in the section's units; all of the section if left out.
+    overlay : Overlay, optional
+        A map in colours over the section.
+    overlay_opacity, mesh_opacity : float
+        0 to 1.
     height : int
         Of the pane with its axes, in css pixels; it is as wide as the page.
 
@@ -49,6 +56,11 @@ class SectionPane(VBox):
     ----------
     view : View
         What is shown; may be set.
+    mesh : tuple (vertices, triangles) or None
+        Whose edges are drawn; may be set. The vertices are in the section's units.
+    rubber : sequence of (x, z)
+        A dashed line that goes on to the pointer; may be set.
+    layer : PointerLayer
     message : str
         What is said below the pane, of an error mostly.
 
@@ -60,87 +72,162 @@ class SectionPane(VBox):
 
     section = Instance(Section)
     view = Instance(View)
+    frame = Any()
     colours = Unicode("greys")
     clip = Float(99.0)
+    limit = Float(None, allow_none=True)
     gain = Float(1.0)
     polarity = Enum((1, -1), 1)
     exaggeration = Float()
+    overlay = Instance(Overlay, allow_none=True)
+    overlay_opacity = Float(0.6)
+    mesh_opacity = Float(0.6)
     height = Int(480)
     message = Unicode()
 
     def __init__(self, section: Section, *, exaggeration: float | None = None, **settings):
-        self._shown, self._texture, self._detail = False, None, None
-        self._strokes, self._listeners, self._grip = (), [], None
-        self._canvas = MultiCanvas(2, width=900, height=600, layout=_placed())
-        self._canvas.add_class("seiswidgets-plot")
+        self._navigation, self._is_moving, self._mesh = Navigation(), False, None
+        self._gesture_listeners, self._hover_listeners = [], []
+        self._picture = Picture(_placed())
+        self._picture.canvas.add_class("seiswidgets-plot")
         self.layer = PointerLayer(hotkeys=list(KEYS), layout=_placed())
-        self._grid = GridBox([self._canvas, self.layer], layout=_grid_layout(480))
+        self._grid = GridBox([self._picture.canvas, self.layer], layout=_grid_layout(480))
         self._line = HTML(layout=Layout(display="none"))
         super().__init__([self._grid, self._line], section=section, view=View(section), **settings)
         self._grid.layout.height = f"{self.height}px"
         self.view = self.view if exaggeration is None else self.view.exaggerated(exaggeration)
         self.layer.on_happening(self._receive)
 
+    def show(self, section: Section, *, moving: bool = False) -> None:
+        """Show another section, in the same window unless all of the old one was shown.
+
+        Parameters
+        ----------
+        section : Section
+        moving : bool
+            Whether another one follows soon: then it is drawn quickly rather than finely.
+        """
+        with held():
+            was_moving, self._is_moving = self._is_moving, moving
+            if section is not self.section:
+                self.section = section
+            elif moving != was_moving:
+                self._take_section()
+
     def draw_lines(self, strokes: Sequence[Stroke]) -> None:
         """Show these lines on the section, and no others."""
-        self._strokes = tuple(strokes)
-        self._draw()
+        self.layer.strokes = [stroke.state() for stroke in strokes]
+
+    def draw_marks(self, marks: Sequence[Mark]) -> None:
+        """Show these marks on the section, and no others."""
+        self.layer.marks = [mark.state() for mark in marks if np.isfinite(mark.point).all()]
+
+    def carry(self, maps: Sequence[tuple]) -> None:
+        """Carry the pointer's place to another pane, there to be its linked cursor.
+
+        Parameters
+        ----------
+        maps : sequence of (source, target, triangles)
+            Applied one after the other; each carries from places of vertices, shape (n, 2), to others, in the
+            section's units, and is affine in each triangle. Without any, a place is carried to itself.
+        """
+        self.layer.chain = [map_state(*each) for each in maps]
+
+    @property
+    def mesh(self):
+        return self._mesh
+
+    @mesh.setter
+    def mesh(self, mesh):
+        self._mesh = mesh
+        self.layer.mesh = {} if mesh is None else mesh_state(*mesh)
+
+    @property
+    def rubber(self):
+        return tuple((x, z) for x, z in self.layer.rubber)
+
+    @rubber.setter
+    def rubber(self, points):
+        self.layer.rubber = [[float(x), float(z)] for x, z in points if np.isfinite((x, z)).all()]
 
     def on_gesture(self, callback: Callable[[Gesture], bool]) -> None:
         """Call a function with each gesture, which says whether it consumed it; else it zooms or pans."""
-        self._listeners.append(callback)
+        self._gesture_listeners.append(callback)
+
+    def on_hover(self, callback: Callable[[tuple[float, float] | None], None]) -> None:
+        """Call a function with the point (x, z) that the pointer is over, a few times a second; None when it leaves."""
+        self._hover_listeners.append(callback)
+
+    def take_keys(self, names: Sequence[str]) -> None:
+        """Have these keys told to those who listen to gestures, besides the pane's own."""
+        self.layer.hotkeys = list(dict.fromkeys([*self.layer.hotkeys, *names]))
 
     def fit(self) -> None:
-        """Show the whole section."""
+        """Show the whole section, or the frame."""
         self.view = self.view.fitted()
 
-    @validate("clip", "gain", "colours", "height")
+    @validate("clip", "limit", "gain", "colours", "height", "frame", "overlay_opacity", "mesh_opacity")
     def _valid(self, proposal):
         name, value = proposal.trait.name, proposal.value
         if name == "colours":
             colour_map(value)
+        elif name == "frame":
+            return None if value is None else checked_window("frame", value)
         elif name == "clip" and not 0 < value <= 100:
             raise SettingError(f"clip must be a percentile, above 0 and at most 100, but is {value:g}")
-        elif name == "gain" and not 0 < value < float("inf"):
-            raise SettingError(f"gain must be a finite number above 0, but is {value:g}")
+        elif name in ("gain", "limit") and not (value is None or 0 < value < float("inf")):
+            raise SettingError(f"{name} must be a finite number above 0, but is {value:g}")
         elif name == "height" and value < 150:
             raise SettingError(f"height must be at least 150 css pixels, but is {value}")
+        elif name.endswith("opacity") and not 0 <= value <= 1:
+            raise SettingError(f"{name} must be from 0 to 1, but is {value:g}")
         return value
 
     @observe("section")
-    def _take_section(self, change):
-        self._close_textures()
-        if self.view.section is not self.section:
-            self.view = self._view_of(self.section)
-        self.layer.label = f"{self.section.name or 'seismic section'}; zoom with + and -, 0 fits, arrows pan"
-        self._colour()
+    def _take_section(self, change=None):
+        with held():
+            self._picture.take(self.section, self._is_moving)
+            self._picture.colouring = self._colouring()
+            self.layer.label = f"{self.section.name or 'seismic section'}; zoom with + and -, 0 fits, arrows pan"
+            if self.view.section is not self.section:
+                self.view = self.view.of(self.section)  # which draws it
+            else:
+                self._picture.draw(self.view)
 
-    def _view_of(self, section):
-        """The view of another section on the same pixels; of one that covers the same, the same part."""
-        old = self.view
-        same = old.section.shape == section.shape and old.section.extent == section.extent
-        window = old.window if same else None
-        return View(section, old.width, old.height, old.pixel_ratio, window)
+    @observe("frame")
+    def _take_frame(self, change):
+        self.view = self.view.framed(self.frame)
 
     @observe("view")
     def _take_view(self, change):
-        if (self._canvas.width, self._canvas.height) != self.view.backing:
-            self._canvas.width, self._canvas.height = self.view.backing
-        self.exaggeration = self.view.exaggeration
-        self.layer.axes, self.layer.window = _axes(self.view), list(self.view.window)
-        self._draw()
+        with held(), self.layer.hold_sync():
+            self.exaggeration = self.view.exaggeration
+            self.layer.axes, self.layer.window = axes_state(self.view, LEFT), list(self.view.window)
+            self.layer.size = self.view.size.tolist()
+            self._picture.draw(self.view)
 
     @observe("exaggeration")
     def _take_exaggeration(self, change):
         if abs(change.new - self.view.exaggeration) > 1e-9 * self.view.exaggeration:
             self.view = self.view.exaggerated(change.new)
 
-    @observe("colours", "clip", "gain", "polarity")
-    def _colour(self, change=None):
-        if self._shown:
-            with held():
-                self._paint_textures()
-                self._draw()
+    @observe("colours", "clip", "limit", "gain", "polarity")
+    def _take_colours(self, change):
+        with LOCK:
+            self._picture.colour(self._colouring())
+            self._picture.draw(self.view)
+
+    @observe("overlay", "overlay_opacity")
+    def _take_overlay(self, change):
+        with LOCK:
+            if change.name == "overlay":
+                self._picture.cover(self.overlay)
+            self._picture.opacity = self.overlay_opacity
+            self._picture.draw(self.view)
+
+    @observe("mesh_opacity")
+    def _take_mesh_opacity(self, change):
+        self.layer.mesh_opacity = self.mesh_opacity
 
     @observe("height")
     def _take_height(self, change):
@@ -162,100 +249,40 @@ class SectionPane(VBox):
                 self.message = f"this should not have happened: {type(error).__name__}: {error}"
                 raise
             else:
-                self.message = self.message if happening.kind in ("hover", "leave", "rest", "size") else ""
+                self.message = self.message if happening.kind in QUIET else ""
 
     def _act(self, happening):
         if happening.kind == "size":
             self._resize(happening)
         elif happening.kind == "rest":
-            self._sharpen()
-        elif happening.kind == "wheel":
-            self.view = self.view.zoomed(ZOOM**happening.steps, happening.pixel)
+            self._picture.sharpen(self.view)
         elif not self._is_consumed(happening):
-            self._move_view(happening)
+            self.view = self._navigation.moved(self.view, happening)
+        self._tell_hover(happening)
 
     def _is_consumed(self, happening):
+        if happening.pan or self._navigation.is_panning:
+            return False
         gesture = gesture_of(happening, self.view)
-        return self._grip is None and gesture is not None and any(listen(gesture) for listen in self._listeners)
+        return gesture is not None and any(listen(gesture) for listen in self._gesture_listeners)
 
-    def _move_view(self, happening):
-        if happening.kind == "press":
-            self._grip = happening.pixel
-        elif happening.kind == "drag" and self._grip:
-            way = happening.x - self._grip[0], happening.y - self._grip[1]
-            self._grip, self.view = happening.pixel, self.view.panned(*way)
-        elif happening.kind == "release":
-            self._move_view(Happening("drag", *happening.pixel))
-            self._grip = None
-        elif happening.kind == "double":
-            self.fit()
-        elif happening.kind == "key":
-            self._press_key(happening)
-
-    def _press_key(self, happening):
-        if happening.key == "0":
-            self.fit()
-        elif happening.key in ARROWS:
-            self.view = self.view.panned(*(STRIDE * way for way in ARROWS[happening.key]))
-        else:
-            self.view = self.view.zoomed(CLOSER if happening.key in "+=" else 1 / CLOSER)
+    def _tell_hover(self, happening):
+        if happening.kind in ("hover", "drag", "leave"):
+            point = None if happening.kind == "leave" else tuple(self.view.to_section(happening.pixel).tolist())
+            for listen in self._hover_listeners:
+                listen(point)
 
     def _resize(self, happening):
         """Take the size that the browser gave the plot area; to a page that has just come, send everything."""
-        view, size = self.view, (happening.width, happening.height, happening.ratio)
         with held():
+            self.view = self.view.resized(happening.width, happening.height, happening.ratio)
             if happening.fresh:
-                self._shown = True
-                self._send_textures()
-            if size != (view.width, view.height, view.pixel_ratio):
-                self.view = view.resized(*size)
-            else:
-                self._draw()
-            self._sharpen()
+                self._picture.resend(self.view)
+            self._picture.sharpen(self.view)
 
     def _colouring(self):
-        limit = clip_limit(self.section, self.clip) / self.gain
+        limit = (self.limit or clip_limit(self.section, self.clip)) / self.gain
         return Colouring(self.colours, limit * self.polarity)
-
-    def _paint_textures(self):
-        self._texture = self._texture or whole(self.section, self.view)
-        for texture in filter(None, (self._texture, self._detail)):
-            texture.paint(self._colouring())
-
-    def _send_textures(self):
-        if self._texture is None:
-            self._paint_textures()
-            return
-        for texture in filter(None, (self._texture, self._detail)):
-            texture.send()
-
-    def _sharpen(self):
-        """Draw what is shown anew from the amplitudes, where the section's picture is too coarse for it."""
-        cells = (self.section.shape[1], self.section.shape[0])
-        if not self._shown or self._texture.size == cells or not self._texture.is_coarse(self.view):
-            return
-        old, self._detail = self._detail, detail(self.section, self.view)
-        with held():
-            self._detail.paint(self._colouring())
-            self._draw()
-        if old:
-            old.close()
-
-    def _close_textures(self):
-        for texture in filter(None, (self._texture, self._detail)):
-            texture.close()
-        self._texture = self._detail = None
-
-    def _draw(self):
-        if not self._shown:
-            return
-        picture, lines = self._canvas[0], self._canvas[1]
-        with held():
-            for canvas in (picture, lines):
-                canvas.clear_rect(0, 0, *self.view.backing)
-            for texture in filter(None, (self._texture, self._detail)):
-                texture.draw_on(picture, self.view)
-            draw_strokes(lines, self._strokes, self.view)
 
 
 def _placed():
@@ -271,13 +298,3 @@ def _grid_layout(height):
         grid_template_rows=f"{TOP}px minmax(0, 1fr) {BOTTOM}px",
         grid_template_areas='". . ." ". plot ." ". . ."',
     )
-
-
-def _axes(view):
-    x, z = ({"title": a.title, "pixels": _rounded(a.pixels), "labels": list(a.labels)} for a in view.ticks())
-    exaggeration = "true proportions" if abs(view.exaggeration - 1) < 0.005 else f"V.E. {view.exaggeration:.3g}×"
-    return {"x": x, "z": z, "left": LEFT, "note": exaggeration}
-
-
-def _rounded(pixels):
-    return [round(pixel, 2) for pixel in pixels]

@@ -1,4 +1,4 @@
-"""The layer on top of a pane that owns every event, and draws axes, cursors and the rubber band in the browser."""
+"""The layer on top of a pane that owns every event, and draws axes, lines, marks, mesh and cursors in the browser."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,15 +6,16 @@ from pathlib import Path
 
 import anywidget
 from ipywidgets import CallbackDispatcher
-from traitlets import Dict, List, Unicode
+from traitlets import Dict, Float, List, Unicode
 
 from seiswidgets.widgets.gestures import REACH, DoubleClick, Gesture, Key, Move, Press, Release
 from seiswidgets.widgets.view import View
 
 FINGER = 2.5  # times the reach of a mouse
-HERE = Path(__file__).parent
-KINDS = ("size", "press", "drag", "release", "hover", "leave", "double", "wheel", "rest", "key")
-ANSWERED = ("drag", "hover", "wheel")  # kinds of which the browser sends no second one before the first is answered
+LAYER = Path(__file__).parent / "layer"
+SCRIPTS = ("svg", "plane", "axes", "lines", "marks", "mesh", "cursors", "carry", "lanes", "hand", "keys", "layer")
+KINDS = ("size", "press", "drag", "release", "hover", "leave", "double", "wheel", "pinch", "rest", "key")
+ANSWERED = ("drag", "hover", "wheel", "pinch")  # of these the browser sends none before the last is answered
 
 
 @dataclass(frozen=True)
@@ -27,14 +28,18 @@ class Happening:
         One of `KINDS`. "size" is sent by each view as it appears (then it is ``fresh``) and when its size changes,
         "rest" a moment after the last wheel step or drag.
     x, y : float
-        In css pixels of the plot area.
+        In css pixels of the plot area, as the kernel knows its size; of a pinch, the middle between the fingers.
     modifiers : frozenset of {"ctrl", "meta", "shift", "alt"}
     button : int
         0 is the main one, 1 the middle one.
     touch, cancelled : bool
-        Whether a finger did it; whether the browser took the gesture away.
+        Whether a finger did it; whether the gesture was taken away, by the browser or by a second finger.
+    pan : bool
+        Whether a press, drag or release is of the middle button, or with Space held: it pans, whatever lies there.
     steps : float
         Of the wheel, positive away from the user.
+    factor, dx, dz : float
+        How far two fingers have spread since the last pinch, and gone, in css pixels.
     key : str
         By the name that browsers give it.
     width, height, ratio : float
@@ -50,7 +55,11 @@ class Happening:
     button: int = 0
     touch: bool = False
     cancelled: bool = False
+    pan: bool = False
     steps: float = 0.0
+    factor: float = 1.0
+    dx: float = 0.0
+    dz: float = 0.0
     key: str = ""
     width: float = 0.0
     height: float = 0.0
@@ -66,7 +75,9 @@ class Happening:
 class PointerLayer(anywidget.AnyWidget):
     """A transparent layer over a canvas, in the same area of a CSS grid.
 
-    Moves are drawn in the browser and throttled there: of drags and wheel steps one message is under way at most.
+    All that it draws it draws in the browser, from points in the section's units and the window: zooming and panning
+    send none of them again. Moves are throttled there: of drags and wheel steps one message is under way at most. Of
+    several views of a layer each draws for its own size, and tells positions in the size that the kernel knows.
 
     Attributes
     ----------
@@ -74,26 +85,43 @@ class PointerLayer(anywidget.AnyWidget):
         "x" and "z", each with "title", "pixels" and "labels"; "left", the room left of the plot area; and "note", for
         the corner.
     window : list
-        ``x_min, x_max, z_min, z_max`` of the plot area, in the section's units; for the cursors.
-    cursor, linked : dict
-        Where the pointer is, ``{"x", "z"}`` in the section's units or empty, and where to draw another pane's cursor.
-        Link the one to the other with ``jslink``; the kernel never hears of either.
-    rubber : list of [x, y]
-        Css pixels of a line that ends at the pointer.
+        ``x_min, x_max, z_min, z_max`` of the plot area, in the section's units.
+    size : list
+        Width and height of the plot area that the kernel knows, in css pixels; those of the axes are of it.
+    strokes, marks : list of dict
+        See `Stroke.state` and `Mark.state`.
+    rubber : list of [x, z]
+        A dashed line, in the section's units, that goes on to the pointer, or else to the linked place.
+    mesh : dict
+        Empty, or see `mesh_state`.
+    mesh_opacity : float
+        0 to 1.
+    chain : list of dict
+        Maps that carry a point to another pane, one after the other; see `map_state`.
+    carried, linked : dict
+        Where the pointer is, carried by the chain, ``{"x", "z"}`` in the other pane's units or empty; and where to
+        draw another pane's cursor. Link the one to the other with ``jslink``; the kernel never hears of either.
     hotkeys : list of str
-        Those that the layer takes ("Enter", "Ctrl+z"); all others, Tab among them, keep their meaning.
+        Those that the layer takes ("Enter", "Ctrl+z"); all others, Tab among them, keep their meaning. Space is
+        always taken: held, it pans; let go without a drag, it is told as a key if it is among these.
     label : str
         What a screen reader says of it.
     """
 
-    _esm = HERE / "pointer.js"
-    _css = HERE / "pointer.css"
+    _esm = "\n".join((LAYER / f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+    _css = LAYER / "layer.css"
 
     axes = Dict().tag(sync=True)
     window = List().tag(sync=True)
-    cursor = Dict().tag(sync=True)
-    linked = Dict().tag(sync=True)
+    size = List().tag(sync=True)
+    strokes = List().tag(sync=True)
+    marks = List().tag(sync=True)
     rubber = List().tag(sync=True)
+    mesh = Dict().tag(sync=True)
+    mesh_opacity = Float(0.6).tag(sync=True)
+    chain = List().tag(sync=True)
+    carried = Dict().tag(sync=True)
+    linked = Dict().tag(sync=True)
     hotkeys = List(Unicode()).tag(sync=True)
     label = Unicode("seismic section").tag(sync=True)
 
@@ -135,3 +163,18 @@ def gesture_of(happening: Happening, view: View) -> Gesture | None:
         case "key":
             return Key(happening.key, happening.modifiers)
     return None
+
+
+def axes_state(view: View, left: float) -> dict:
+    """The axes of a view as the layer in the browser knows them, with so much room on the left."""
+    axes = zip("xz", view.ticks(), strict=True)
+    x_and_z = {
+        name: {
+            "title": axis.title,
+            "pixels": [round(pixel, 2) for pixel in axis.pixels],
+            "labels": list(axis.labels),
+        }
+        for name, axis in axes
+    }
+    is_true = abs(view.exaggeration - 1) < 0.005
+    return {**x_and_z, "left": left, "note": "true proportions" if is_true else f"V.E. {view.exaggeration:.3g}×"}

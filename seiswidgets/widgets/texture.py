@@ -4,66 +4,89 @@ import numpy as np
 from ipycanvas import Canvas
 
 from seiswidgets.geology.section import Section
-from seiswidgets.widgets.canvas import encoded, put
-from seiswidgets.widgets.colours import Colouring, resampled
+from seiswidgets.widgets.canvas import encoded, put, resize
+from seiswidgets.widgets.colours import resampled
 from seiswidgets.widgets.view import View, Window
 
-MOST = 2_000_000  # pixels of a picture of the whole section
+MOST = 2_000_000  # pixels of a picture of a whole section
+FEW = 150_000  # of one that moves: more take longer to encode than a drag may
 
 
 class Texture:
-    """The picture of a window of a section.
+    """A canvas that is not shown, and the picture of a window on it; there is none at first.
 
-    Parameters
+    One canvas serves picture after picture: making and closing canvases costs the browser more than drawing on them.
+
+    Attributes
     ----------
-    section : Section
-    window : tuple (x_min, x_max, z_min, z_max)
-        In the section's units; cut to the section, and to whole cells.
-    most : tuple (width, height)
-        Pixels that it has at most; nor has it more than the section has cells there.
+    size : tuple (width, height)
+        Of the picture.
+    picture : bytes
+        Encoded; empty if there is none.
     """
 
-    def __init__(self, section: Section, window: Window, most: tuple[int, int]):
-        origin, cell = np.array([section.x0, section.z0]), np.array([section.dx, section.dz])
-        corners = (np.reshape(window, (2, 2)).T - origin) / cell + 0.5
-        low = np.clip(np.floor(corners[0]), 0, np.array(section.shape[::-1]) - 1)
-        high = np.clip(np.ceil(corners[1]), low + 1, section.shape[::-1])
-        self.size = tuple(np.maximum(1, np.minimum(high - low, most)).astype(int).tolist())
-        self.amplitude = resampled(section.amplitude, (*low, *high), self.size)
-        self.corners = np.array([low, high]) * cell + origin - cell / 2
-        self.canvas = Canvas(width=self.size[0], height=self.size[1])
-        self.picture = b""
+    def __init__(self):
+        self._canvas, self._window = None, None
+        self.size, self.picture = (0, 0), b""
 
-    def paint(self, colouring: Colouring) -> None:
-        """Encode it in some colours, and send it."""
-        self.picture = encoded(colouring.levels(self.amplitude), colouring.palette)
+    def paint(self, levels: np.ndarray, palette: np.ndarray, window: Window, quick: bool = False) -> None:
+        """Encode levels in the colours of a palette, and send them; see `encoded`."""
+        self.size, self._window = levels.shape[::-1], window
+        self.picture = encoded(levels, palette, quick)
         self.send()
 
     def send(self) -> None:
-        """Send it, to a page that knows nothing yet."""
-        put(self.canvas, self.picture)
+        """Send the picture, if there is one, to a page that may know nothing yet."""
+        if self.picture:
+            self._canvas = self._canvas or Canvas(width=self.size[0], height=self.size[1])
+            resize(self._canvas, *self.size)
+            put(self._canvas, self.picture)
+
+    def forget(self) -> None:
+        """Have no picture until the next one is painted."""
+        self.picture = b""
 
     def draw_on(self, canvas: Canvas, view: View) -> None:
-        """Draw it on a canvas of the view's backing store, in its place."""
-        (left, top), (right, bottom) = view.to_backing(self.corners).tolist()
-        canvas.draw_image(self.canvas, left, top, right - left, bottom - top)
+        """Draw the picture, if there is one, on a canvas of the view's backing store, in its place."""
+        if self.picture:
+            (left, top), (right, bottom) = self._corners(view).tolist()
+            canvas.draw_image(self._canvas, left, top, right - left, bottom - top)
 
     def is_coarse(self, view: View) -> bool:
-        """Whether a view has more pixels for it than it has."""
-        return bool((np.diff(view.to_backing(self.corners), axis=0)[0] > self.size).any())
+        """Whether a view has more pixels for the picture than it has."""
+        return bool((np.diff(self._corners(view), axis=0)[0] > self.size).any())
 
-    def close(self) -> None:
-        """Free the browser's memory."""
-        self.canvas.close()
-
-
-def whole(section: Section, view: View) -> Texture:
-    """The picture of a whole section, decimated if it is large."""
-    nz, nx = section.shape
-    share = min(1.0, np.sqrt(MOST / (nz * nx)))
-    return Texture(section, view.whole, (max(1, int(nx * share)), max(1, int(nz * share))))
+    def _corners(self, view):
+        return view.to_backing(np.reshape(self._window, (2, 2)).T)
 
 
-def detail(section: Section, view: View) -> Texture:
-    """The picture of what a view shows, as sharp as its pixels allow."""
-    return Texture(section, view.window, view.backing)
+def whole(section: Section, view: View) -> tuple[np.ndarray, Window]:
+    """All amplitudes of a section, decimated if they are many, and the window that they cover."""
+    return _sample(section, view.covered, _fewer(section.shape[::-1], MOST))
+
+
+def detail(section: Section, view: View) -> tuple[np.ndarray, Window]:
+    """What a view shows of a section, as fine as its pixels allow, and the window of that."""
+    return _sample(section, view.window, view.backing)
+
+
+def glimpse(section: Section, view: View) -> tuple[np.ndarray, Window]:
+    """What a view shows of a section, as coarse as must be to follow a drag, and the window of that."""
+    return _sample(section, view.window, _fewer(view.backing, FEW))
+
+
+def _sample(section, window, most):
+    """Amplitudes of the whole cells in a window, averaged onto so many pixels at most, and the cells' own window."""
+    origin, cell = np.array([section.x0, section.z0]), np.array([section.dx, section.dz])
+    corners = (np.reshape(window, (2, 2)).T - origin) / cell + 0.5
+    low = np.clip(np.floor(corners[0]), 0, np.array(section.shape[::-1]) - 1).astype(int)
+    high = np.clip(np.ceil(corners[1]), low + 1, section.shape[::-1]).astype(int)
+    size = tuple(np.maximum(1, np.minimum(high - low, most)).tolist())
+    amplitude = resampled(section.amplitude[low[1] : high[1], low[0] : high[0]], size)
+    return amplitude, tuple((np.array([low, high]) * cell + origin - cell / 2).T.ravel().tolist())
+
+
+def _fewer(size, most):
+    """A size of the same proportions with so many pixels at most."""
+    share = min(1.0, np.sqrt(most / (size[0] * size[1])))
+    return tuple(max(1, int(length * share)) for length in size)

@@ -50,12 +50,14 @@ class View:
     pixel_ratio : float
         Device pixels in one css pixel.
     window : tuple (x_min, x_max, z_min, z_max), optional
-        In the section's units; the whole section if left out.
+        In the section's units; all of the frame if left out.
+    frame : tuple (x_min, x_max, z_min, z_max), optional
+        What a fitted view shows; the whole section if left out. Panes whose sections differ in extent share one.
 
     Raises
     ------
     SettingError
-        If a size is not above 0, or the window is empty.
+        If a size is not above 0, or the window or the frame is empty.
     """
 
     section: Section
@@ -63,25 +65,31 @@ class View:
     height: float = 600.0
     pixel_ratio: float = 1.0
     window: Window | None = None
+    frame: Window | None = None
 
     def __post_init__(self):
         for name in ("width", "height", "pixel_ratio"):
             object.__setattr__(self, name, _above_zero(name, getattr(self, name)))
-        window = self.whole if self.window is None else tuple(float(value) for value in self.window)
-        if not (len(window) == 4 and np.isfinite(window).all() and window[0] < window[1] and window[2] < window[3]):
-            raise SettingError(f"window must be (x_min, x_max, z_min, z_max), each minimum first, but is {window!r}")
+        if self.frame is not None:
+            object.__setattr__(self, "frame", checked_window("frame", self.frame))
+        window = self.whole if self.window is None else checked_window("window", self.window)
         object.__setattr__(self, "window", window)
 
     @property
-    def whole(self) -> Window:
-        """The window of the whole section, to the outer edges of its cells."""
+    def covered(self) -> Window:
+        """The window that the section covers, to the outer edges of its cells."""
         x_min, x_max, z_min, z_max = self.section.extent
         x, z = self.section.dx / 2, self.section.dz / 2
         return x_min - x, x_max + x, z_min - z, z_max + z
 
     @property
+    def whole(self) -> Window:
+        """The window of a fitted view: the frame, or what the section covers."""
+        return self.covered if self.frame is None else self.frame
+
+    @property
     def is_fitted(self) -> bool:
-        """Whether the window is the whole section and no more."""
+        """Whether the window is the whole and no more."""
         return self.window == self.whole
 
     @property
@@ -108,7 +116,7 @@ class View:
     @property
     def picture(self) -> tuple[float, float, float, float]:
         """Where the picture of the whole section lies: left, top, width and height, in css pixels."""
-        (left, top), (right, bottom) = self.to_pixels(_corners(self.whole))
+        (left, top), (right, bottom) = self.to_pixels(_corners(self.covered))
         return float(left), float(top), float(right - left), float(bottom - top)
 
     def to_pixels(self, points) -> np.ndarray:
@@ -128,8 +136,17 @@ class View:
         return self.to_section(np.asarray(pixels, float) / (self.backing / self.size))
 
     def fitted(self) -> "View":
-        """The whole section, filling the pane."""
+        """The whole, filling the pane."""
         return replace(self, window=None)
+
+    def framed(self, frame: Window | None) -> "View":
+        """With another frame: a fitted view stays fitted, any other shows what it showed."""
+        return replace(self, frame=frame, window=None if self.is_fitted else self.window)
+
+    def of(self, section: Section) -> "View":
+        """Of another section: a fitted view stays fitted, any other shows the same window if the units are the same."""
+        same = (section.x_unit, section.z_unit) == (self.section.x_unit, self.section.z_unit)
+        return replace(self, section=section, window=self.window if same and not self.is_fitted else None)
 
     def zoomed(self, factor: float, at=None) -> "View":
         """Closer by a factor (farther if below 1), the point under a css pixel staying there; by default the centre.
@@ -187,6 +204,17 @@ class View:
 
     def _with(self, corners):
         return replace(self, window=tuple(corners.T.ravel().tolist()))
+
+
+def checked_window(name: str, window) -> Window:
+    """A window as a tuple of floats; SettingError if it is not finite or empty."""
+    try:
+        x_min, x_max, z_min, z_max = checked = tuple(float(value) for value in window)
+    except (TypeError, ValueError):
+        checked = x_min, x_max, z_min, z_max = (np.nan,) * 4
+    if not (np.isfinite(checked).all() and x_min < x_max and z_min < z_max):
+        raise SettingError(f"{name} must be (x_min, x_max, z_min, z_max), each minimum first, but is {window!r}")
+    return checked
 
 
 def _axis(title, low, high, length, apart):

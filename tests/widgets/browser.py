@@ -5,7 +5,6 @@ import json
 import os
 import re
 import secrets
-import shutil
 import socket
 import subprocess
 import sys
@@ -28,37 +27,6 @@ FLAGS = [
 ]
 IGNORED = re.compile("favicon|net::ERR_INTERNET_DISCONNECTED")
 START, RUN = 60, 60  # seconds that the server may take to start, and anything in the page
-
-
-@pytest.fixture(scope="session")
-def chromium():
-    """A running Chromium; skips where there is none, but never in CI."""
-    path = shutil.which("chromium") or shutil.which("google-chrome")
-    if path is None:
-        missing = "there is no Chromium here; on Debian: apt-get install chromium"
-        pytest.fail(missing) if os.environ.get("CI") else pytest.skip(missing)
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        yield browser
-        browser.close()
-
-
-@pytest.fixture(scope="session")
-def lab(tmp_path_factory):
-    """The address of a JupyterLab of its own, its token and its folder."""
-    folder = tmp_path_factory.mktemp("lab")
-    server = Server(folder)
-    try:
-        server.wait()
-        yield server
-    finally:
-        server.process.terminate()
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            server.process.wait(10)
-        if server.process.poll() is None:
-            server.process.kill()
 
 
 class Server:
@@ -103,21 +71,6 @@ class Server:
     def address(self, path):
         """Of a notebook."""
         return f"http://127.0.0.1:{self.port}/lab/tree/{path}?reset&token={self.token}"
-
-
-@pytest.fixture
-def notebook(lab, chromium):
-    """A function that opens a notebook with some cells and runs them; at the end the console must hold no error."""
-    opened = []
-
-    def open_notebook(*cells, **options):
-        opened.append(Notebook(lab, chromium, cells, **options))
-        return opened[-1]
-
-    yield open_notebook
-    for one in opened:
-        one.close()
-    assert [error for one in opened for error in one.errors] == []
 
 
 class Notebook:
@@ -173,8 +126,9 @@ class Notebook:
         self.page.wait_for_function("window.done")
 
     def run(self):
-        """Run all cells, until the last one is done."""
+        """Run all cells, until the last one is done, and show only what they put out."""
         self.command("notebook:run-all-cells")
+        self.command("notebook:hide-all-cell-code")
 
     def reload(self):
         """Load the page anew; the kernel goes on."""

@@ -2,7 +2,7 @@ import time
 
 import pytest
 
-from tests.widgets.browser import SCREENSHOTS, chromium, lab, notebook  # noqa: F401
+from tests.widgets.browser import SCREENSHOTS
 from tests.widgets.test_pane_browser import until
 
 CELL = """
@@ -50,7 +50,7 @@ def shoot(opened, name):
 
 
 @pytest.mark.parametrize("dark", [False, True])
-def test_brushing_by_mouse(notebook, dark):  # noqa: F811
+def test_brushing_by_mouse(notebook, dark):
     opened = notebook(CELL, dark=dark)
     chart(opened)
     look = "dark" if dark else "light"
@@ -79,7 +79,7 @@ def test_brushing_by_mouse(notebook, dark):  # noqa: F811
     assert opened.page.locator(f"{CHART} .faded").count() == 0
 
 
-def test_brushing_by_keyboard(notebook):  # noqa: F811
+def test_brushing_by_keyboard(notebook):
     opened = notebook(CELL)
     chart(opened).focus()
     press = opened.page.keyboard.press
@@ -106,7 +106,7 @@ def test_brushing_by_keyboard(notebook):  # noqa: F811
     assert not chart(opened).evaluate("chart => chart === document.activeElement")
 
 
-def test_a_brush_from_code_is_shown_and_gone_on_from(notebook):  # noqa: F811
+def test_a_brush_from_code_is_shown_and_gone_on_from(notebook):
     opened = notebook(CELL)
     chart(opened).focus()
     opened.page.keyboard.press("Home")
@@ -118,7 +118,7 @@ def test_a_brush_from_code_is_shown_and_gone_on_from(notebook):  # noqa: F811
 
 
 @pytest.mark.parametrize(("ratio", "number"), [(1.0, 20), (1e-3, 0), (1e3, 40)])
-def test_the_bar_of_the_mark(notebook, ratio, number):  # noqa: F811
+def test_the_bar_of_the_mark(notebook, ratio, number):
     opened = notebook(CELL)
     chart(opened)
     opened.ask(f"histogram.set_trait('mark', {ratio})")
@@ -129,7 +129,7 @@ def test_the_bar_of_the_mark(notebook, ratio, number):  # noqa: F811
     mark.wait_for(state="detached")
 
 
-def test_while_the_kernel_is_at_work_one_message_is_under_way(notebook):  # noqa: F811
+def test_while_the_kernel_is_at_work_one_message_is_under_way(notebook):
     opened = notebook(CELL + SLOW)
     opened.page.mouse.move(*bar(opened, 20))
     opened.page.mouse.down()
@@ -144,7 +144,7 @@ def test_while_the_kernel_is_at_work_one_message_is_under_way(notebook):  # noqa
     assert opened.ask("len(heard)") <= most + 2
 
 
-def test_two_views_agree_also_after_a_reload(notebook):  # noqa: F811
+def test_two_views_agree_also_after_a_reload(notebook):
     opened = notebook(CELL, "histogram")
     chart(opened, 1)
     opened.page.mouse.click(*bar(opened, 30))
@@ -160,7 +160,7 @@ def test_two_views_agree_also_after_a_reload(notebook):  # noqa: F811
     assert opened.page.locator(f"{CHART} .bar:not(.faded)").count() == 2
 
 
-def test_nothing_restored_yet(notebook):  # noqa: F811
+def test_nothing_restored_yet(notebook):
     opened = notebook("import seiswidgets as sw\nhistogram = sw.DeformationHistogram()\nhistogram")
     opened.page.get_by_text("Nothing restored yet").wait_for()
     opened.page.locator(CHART).focus()
@@ -172,7 +172,7 @@ def test_nothing_restored_yet(notebook):  # noqa: F811
     assert opened.ask("histogram.brush") == []
 
 
-def test_in_a_narrow_place(notebook):  # noqa: F811
+def test_in_a_narrow_place(notebook):
     opened = notebook(CELL + "histogram.layout.width = '320px'\nhistogram")
     chart(opened)
     inside = """() => {

@@ -1,42 +1,64 @@
 import json
+from dataclasses import dataclass
+from io import BytesIO
 
-import ipywidgets
 import numpy as np
 import pytest
+from comm import DummyComm
 from ipycanvas.canvas import _CANVAS_MANAGER, COMMANDS
+from PIL import Image
 
 import seiswidgets as sw
 from seiswidgets.widgets.canvas import held
-from seiswidgets.widgets.gestures import DoubleClick, Key, Press
-from seiswidgets.widgets.overlay import Stroke
+from seiswidgets.widgets.gestures import DoubleClick, Key, Move, Press, Release
+from seiswidgets.widgets.overlay import Mark, Overlay, Stroke
+from seiswidgets.widgets.texture import FEW, MOST
 
 NAMES = {number: name for name, number in COMMANDS.items()}
 SIZE = {"kind": "size", "width": 800, "height": 400, "ratio": 2, "fresh": True}
 QUIET = 2000  # bytes that a step of zooming or panning may send
 
 
-@pytest.fixture(autouse=True)
-def loud_callbacks(monkeypatch):
-    """Callbacks that fail, fail the test: ipywidgets would log that and go on."""
+@dataclass
+class Drawing:
+    """A message to the canvases: its commands by name, each with its arguments, and its pictures."""
 
-    def call(self, *args, **kwargs):
-        return [callback(*args, **kwargs) for callback in self.callbacks]
+    commands: list
+    pictures: list
 
-    monkeypatch.setattr(ipywidgets.CallbackDispatcher, "__call__", call)
+    @property
+    def names(self):
+        return [command[0] for command in self.commands]
+
+    def image(self, number=0):
+        """Red, green, blue and opacity of a picture."""
+        return np.asarray(Image.open(BytesIO(self.pictures[number])).convert("RGBA"))
 
 
 @pytest.fixture
 def sent(monkeypatch):
-    """All messages to canvases: their commands' names and arguments, and their size in bytes."""
+    """All messages to canvases."""
     messages = []
 
     def send(content, buffers=None):
         commands = json.loads(bytes(buffers[0]))
         commands = commands if isinstance(commands[0], list) else [commands]
-        size = sum(memoryview(buffer).nbytes for buffer in buffers)
-        messages.append(([(NAMES[command[0]], *command[1:2]) for command in commands], size))
+        messages.append(Drawing([(NAMES[command[0]], *command[1:2]) for command in commands], buffers[1:]))
 
     monkeypatch.setattr(_CANVAS_MANAGER, "send", send)
+    return messages
+
+
+@pytest.fixture
+def published(monkeypatch):
+    """All that any widget sends: the kind of the message, its data, and its size in bytes."""
+    messages = []
+
+    def publish(self, kind, data=None, metadata=None, buffers=None, **keys):
+        size = len(json.dumps(data)) + sum(memoryview(buffer).nbytes for buffer in buffers or ())
+        messages.append((kind, data, size))
+
+    monkeypatch.setattr(DummyComm, "publish_msg", publish)
     return messages
 
 
@@ -56,10 +78,6 @@ def shown(section, **settings):
     return pane
 
 
-def names(message):
-    return [command[0] for command in message[0]]
-
-
 def test_nothing_is_drawn_for_nobody(section, sent):
     pane = sw.SectionPane(section)
     pane.colours = "red-white-blue"
@@ -70,10 +88,10 @@ def test_nothing_is_drawn_for_nobody(section, sent):
 def test_a_page_that_comes_is_sent_everything_in_one_message(section, sent):
     pane = shown(section)
     assert len(sent) == 1
-    assert {"putImageData", "drawImage"} <= set(names(sent[0]))
-    assert names(sent[0])[0] == "switchCanvas"
+    assert {"putImageData", "drawImage"} <= set(sent[0].names)
+    assert sent[0].names[0] == "switchCanvas"
     assert pane.view.backing == (1600, 800)
-    assert (pane._canvas.width, pane._canvas.height) == (1600, 800)
+    assert (pane._picture.canvas.width, pane._picture.canvas.height) == (1600, 800)
 
 
 def test_the_wheel_zooms_at_the_pointer(section, sent):
@@ -107,15 +125,18 @@ def test_keys_zoom_and_0_fits(section, sent, key, closer):
     assert pane.view.is_fitted
 
 
-def test_zooming_and_panning_send_little(section, sent):
-    pane = shown(section)
-    updates = []
-    pane.layer.observe(lambda change: updates.append(len(json.dumps(change.new))), ["axes", "window"])
-    for kind in ("wheel", "press", "drag", "release"):
-        sent.clear(), updates.clear()
-        tell(pane, kind, x=100 + 10 * len(kind), y=100, **({"steps": 1} if kind == "wheel" else {}))
-        assert sum(size for _, size in sent) + sum(updates) < QUIET
-        assert "putImageData" not in [name for message in sent for name in names(message)]
+def test_zooming_and_panning_send_little(section, published):
+    pane, rng = shown(section), np.random.default_rng(2)
+    pane.draw_lines([Stroke(rng.uniform(0, 1000, (100, 2)), dots=True, label=f"H{k}") for k in range(10)])
+    pane.draw_marks([Mark(point, "cutoff", "1") for point in rng.uniform(0, 1000, (10, 2))])
+    pane.mesh = rng.uniform(0, 1000, (30, 2)), rng.integers(0, 30, (60, 3))
+    pane.overlay = Overlay(np.zeros((90, 90), np.uint8), np.zeros((256, 4), np.uint8), (0, 1000, 0, 900))
+    steps = [("wheel", {"steps": 1}), ("pinch", {"factor": 1.1, "dx": 3, "dz": 2}), ("press", {}), ("drag", {})]
+    for kind, more in [*steps, ("release", {}), ("key", {"key": "+"})]:
+        published.clear()
+        tell(pane, kind, x=100 + 10 * len(kind), y=100, **more)
+        assert sum(size for _, _, size in published) < QUIET
+    assert not pane.view.is_fitted
 
 
 def test_drags_are_answered_even_if_they_fail(section, sent, monkeypatch):
@@ -176,57 +197,233 @@ def test_exaggeration_follows_the_view_and_the_view_follows_it(section, sent):
     assert pane.exaggeration == pytest.approx(pane.view.exaggeration)
 
 
-@pytest.mark.parametrize("change", [{"colours": "seismic"}, {"clip": 50.0}, {"gain": 2.0}, {"polarity": -1}])
+@pytest.mark.parametrize(
+    "change", [{"colours": "seismic"}, {"clip": 50.0}, {"gain": 2.0}, {"polarity": -1}, {"limit": 0.5}]
+)
 def test_other_colours_send_another_picture(section, sent, change):
     pane = shown(section)
-    before = pane._texture.picture
     for name, value in change.items():
         setattr(pane, name, value)
-    assert pane._texture.picture != before
-    assert "putImageData" in names(sent[-1])
+    assert len(sent) == 2
+    assert sent[1].pictures != sent[0].pictures
 
 
 def test_a_large_section_is_decimated_and_sharpened(sent):
     pane = shown(sw.Section(np.random.default_rng(0).normal(size=(2000, 3000)).astype(np.float32), dx=1, dz=1))
-    assert np.prod(pane._texture.size) <= 2_000_000
+    assert sent[-1].image().size / 4 <= MOST
     tell(pane, "wheel", x=400, y=200, steps=12)
-    assert pane._detail is None
+    assert not sent[-1].pictures
     tell(pane, "rest")
-    assert pane._detail is not None
-    assert not pane._detail.is_coarse(pane.view) or pane._detail.size[0] >= 3000 * 800 * pane.view.pixel[0] / 3000
+    cells = np.diff(np.reshape(pane.view.window, (2, 2))).ravel()
+    assert np.subtract(sent[-1].image().shape[1::-1], cells) == pytest.approx(1, abs=1)  # each cell that is seen
+    before = len(sent)
+    tell(pane, "rest")
+    assert len(sent) == before
 
 
-def test_another_section_of_the_same_size_keeps_the_window(section, sent):
+def test_another_section_keeps_the_window_unless_all_of_it_was_shown(section, sent):
     pane = shown(section)
+    pane.section = shallow = sw.Section(section.amplitude[:50], dx=10, dz=5)
+    assert pane.view.is_fitted
     tell(pane, "wheel", x=200, y=100, steps=3)
     window = pane.view.window
-    pane.section = sw.Section(-section.amplitude, dx=10, dz=5)
+    pane.section = section
     assert pane.view.window == window
-    pane.section = sw.Section(section.amplitude[:50], dx=10, dz=5)
+    pane.section = shallow
+    assert pane.view.window == window
+    pane.section = sw.Section(section.amplitude, dx=10, dz=5, z_unit="ms", velocity=2000)
     assert pane.view.is_fitted
 
 
-def test_lines_with_gaps_are_drawn_without_them(section, sent):
+def test_a_frame_is_what_fits(section, sent):
     pane = shown(section)
-    points = [[0, 0], [100, 100], [np.nan, np.nan], [500, 200], [600, 300], [1e9, 0]]
-    pane.draw_lines([Stroke(points, dots=True)])
-    assert names(sent[-1]).count("strokeLines") == 4
-    assert "NaN" not in json.dumps(sent[-1][0])
+    pane.frame = -500, 4000, -100, 1500
+    assert pane.view.window == (-500, 4000, -100, 1500)
+    pane.section = sw.Section(section.amplitude[:50], dx=10, dz=5)
+    assert pane.view.window == (-500, 4000, -100, 1500)
+    tell(pane, "wheel", x=200, y=100, steps=3)
+    window = pane.view.window
+    pane.frame = None
+    assert pane.view.window == window
+    pane.fit()
+    assert pane.view.window == (-5, 2995, -2.5, 247.5)
+    with pytest.raises(sw.SettingError, match=r"frame must be \(x_min"):
+        pane.frame = 1, 0, 0, 1
+
+
+def restored(number, size=(600, 900)):
+    """A section like those that follow each other in a drag, with a gap that wanders."""
+    amplitude = np.sin(np.arange(size[0]) / 9 + number)[:, None] * np.ones(size[1])
+    amplitude[:, 400 + 3 * number : 480 + 3 * number] = np.nan
+    return sw.Section(amplitude, dx=2, dz=2)
+
+
+def test_a_section_that_moves_is_sent_quickly_in_one_message_each(sent, published):
+    pane = shown(restored(0), clip=100)
+    pane.show(restored(1), moving=True)
+    sent.clear(), published.clear()
+    for number in range(2, 6):
+        pane.show(restored(number), moving=True)
+    assert len(sent) == 4
+    assert not published  # no canvas made, closed or resized; the axes are the same
+    assert all(drawing.image().size / 4 <= FEW for drawing in sent)
+    assert all(drawing.names.count("putImageData") == 1 for drawing in sent)
+    pane.show(pane.section)
+    assert len(sent) == 5
+    assert sent[-1].image().shape == (600, 900, 4)
+
+
+def test_a_section_that_moves_looks_as_when_it_rests(sent):
+    pane = shown(restored(0), clip=100)
+    pane.show(restored(3), moving=True)
+    moving = sent[-1].image().astype(float)
+    pane.show(restored(3))
+    still = Image.fromarray(sent[-1].image())
+    still = np.asarray(still.resize(moving.shape[1::-1], Image.Resampling.BOX), float)
+    assert (np.abs(moving[..., 3] - still[..., 3]) <= 128).all()  # transparent where most is, at the gap's border too
+    known = (moving[..., 3] == 255) & (still[..., 3] == 255)
+    assert np.abs(moving - still)[known].max() < 20
+
+
+def test_zooming_while_it_moves_draws_what_is_then_seen(sent):
+    pane = shown(restored(0))
+    pane.show(restored(1), moving=True)
+    tell(pane, "wheel", x=400, y=200, steps=6)
+    tell(pane, "rest")
+    cells = np.diff(np.reshape(pane.view.window, (2, 2))).ravel() / 2
+    assert np.subtract(sent[-1].image().shape[1::-1], cells) == pytest.approx(1, abs=1)
+    assert sent[-1].names.count("drawImage") == 1
+
+
+def test_a_canvas_is_resized_before_it_is_painted(section, published):
+    pane = shown(section)
+    published.clear()
+    pane.show(sw.Section(section.amplitude[:50], dx=10, dz=5))
+    data = [data for _, data, _ in published]
+    assert {"height": 50} in [message["state"] for message in data[:-1]]
+    assert data[-1]["method"] == "custom"
+
+
+def test_an_overlay_lies_over_the_section(section, sent):
+    pane = shown(section)
+    palette = np.random.default_rng(0).integers(0, 256, (256, 4), np.uint8)
+    levels = np.arange(240, dtype=np.uint8).reshape(12, 20)
+    pane.overlay = Overlay(levels, palette, (0, 1000, 0, 500))
+    drawing = sent[-1]
+    assert (drawing.image() == palette[levels]).all()
+    (left, top), (right, bottom) = pane.view.to_backing([(0, 0), (1000, 500)])
+    np.testing.assert_allclose(drawing.commands[-1][1][1:], [left, top, right - left, bottom - top])
+    assert drawing.commands[-2] == ("set", [drawing.commands[-2][1][0], 0.6])
+    assert drawing.names.count("drawImage") == 2
+    pane.overlay = Overlay(levels, palette[::-1], (0, 1000, 0, 500))
+    assert (sent[-1].image() == palette[::-1][levels]).all()
+    assert len(sent[-1].pictures) == 1
+    pane.overlay_opacity = 0.2
+    assert not sent[-1].pictures
+    tell(pane, **SIZE)
+    assert len(sent[-1].pictures) == 2  # to a page that knows nothing
+    pane.overlay = None
+    assert sent[-1].names.count("drawImage") == 1
+    with pytest.raises(sw.SettingError, match="overlay_opacity must be from 0 to 1, but is 2"):
+        pane.overlay_opacity = 2
+
+
+def test_what_the_layer_draws_it_is_told_in_the_units_of_the_section(section):
+    pane = sw.SectionPane(section)
+    pane.draw_lines([Stroke([[0, 0], [np.nan, 1], [1e9, 0]], dash=(3, 2), label="<b>", chosen=2)])
+    (stroke,) = pane.layer.strokes
+    assert stroke["points"] == [[0, 0], None, [1e9, 0]]
+    assert (stroke["dash"], stroke["label"], stroke["chosen"], stroke["dots"]) == ([3, 2], "<b>", 2, False)
+    pane.draw_marks([Mark((1, 2), "cutoff", "7"), Mark((np.nan, 2), "held")])
+    assert pane.layer.marks == [{"x": 1, "z": 2, "kind": "cutoff", "text": "7", "colour": "#212121"}]
+    pane.rubber = np.array([[1, 2], [np.nan, 3], [4, 5]])
+    assert pane.layer.rubber == [[1, 2], [4, 5]]
+    assert pane.rubber == ((1, 2), (4, 5))
+    pane.rubber = ()
+    assert pane.layer.rubber == []
+
+
+def test_a_mesh_and_maps_are_sent_as_bytes(section):
+    pane = sw.SectionPane(section, mesh_opacity=0.3)
+    vertices, triangles = [[0, 0], [1, 0], [0, 1], [1, 1]], [[0, 1, 2], [1, 3, 2]]
+    pane.mesh = vertices, triangles
+    edges = np.frombuffer(pane.layer.mesh["edges"], np.uint32).reshape(-1, 2)
+    assert {tuple(edge) for edge in edges} == {(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)}
+    assert np.frombuffer(pane.layer.mesh["vertices"]).tolist() == [0, 0, 1, 0, 0, 1, 1, 1]
+    assert pane.layer.mesh_opacity == 0.3
+    pane.mesh = None
+    assert pane.layer.mesh == {}
+    pane.carry([(vertices, np.add(vertices, 0.5), triangles)])
+    (piece,) = pane.layer.chain
+    assert np.frombuffer(piece["target"]).tolist() == [0.5, 0.5, 1.5, 0.5, 0.5, 1.5, 1.5, 1.5]
+    assert np.frombuffer(piece["triangles"], np.uint32).tolist() == [0, 1, 2, 1, 3, 2]
+    pane.carry([])
+    assert pane.layer.chain == []
+
+
+def test_colours_end_where_they_are_told_to(sent):
+    amplitude = [[0.0, 1.0, 2.0, -4.0]] * 2
+    pane = shown(sw.Section(amplitude, dx=1, dz=1), limit=4.0)
+    assert sent[-1].image()[0, :, 0].tolist() == pytest.approx([128, 160, 191, 0], abs=1)
+    pane.gain = 2.0
+    assert sent[-1].image()[0, :, 0].tolist() == pytest.approx([128, 191, 255, 0], abs=1)
+    with pytest.raises(sw.SettingError, match="limit must be"):
+        pane.limit = -1.0
+
+
+def test_pans_are_not_told_as_gestures(section, sent):
+    pane, seen = shown(section), []
+    pane.on_gesture(lambda gesture: seen.append(gesture) or True)
+    tell(pane, "wheel", x=400, y=200, steps=4)
+    grasped = pane.view.to_section((400, 200))
+    for kind, x in (("press", 400), ("drag", 420), ("release", 440)):
+        tell(pane, kind, x=x, y=200, pan=True, button=1)
+    assert pane.view.to_section((440, 200)) == pytest.approx(grasped)
+    assert not seen
+    tell(pane, "press", x=1, y=1)
+    tell(pane, "release", x=9, y=9, cancelled=True)
+    assert [type(gesture) for gesture in seen] == [Press, Release]
+    tell(pane, "pinch", x=1, y=1, factor=1.5, dx=3, dz=3)
+    assert len(seen) == 2
+
+
+def test_listeners_hear_where_the_pointer_is(section, sent):
+    pane, seen = shown(section), []
+    pane.on_hover(seen.append)
+    for kind in ("hover", "drag", "leave"):
+        tell(pane, kind, x=400, y=100)
+    assert seen[0] == pytest.approx((1495, 247.5))
+    assert seen[1:] == [seen[0], None]
+
+
+def test_other_keys_are_told_and_do_nothing_themselves(section, sent):
+    pane, seen = shown(section), []
+    pane.take_keys(["Enter", "0", "Escape"])
+    pane.take_keys(["Enter", " "])
+    assert pane.layer.hotkeys[-3:] == ["Enter", "Escape", " "]
+    assert pane.layer.hotkeys.count("0") == 1
+    pane.on_gesture(seen.append)
+    for name in ("Enter", " ", "Escape"):
+        tell(pane, "key", key=name)
+    assert pane.view.is_fitted
+    assert seen == [Key("Enter"), Key(" "), Key("Escape")]
+    tell(pane, "hover", x=1, y=1)
+    assert isinstance(seen[-1], Move)
 
 
 def test_a_hold_survives_an_exception(section, sent):
     pane = shown(section)
     sent.clear()
     with pytest.raises(ValueError, match="inside"), held():  # noqa: PT012
-        pane._canvas[0].fill_rect(0, 0, 1, 1)
+        pane._picture.canvas[0].fill_rect(0, 0, 1, 1)
         raise ValueError("inside")
     assert not sent
     assert not _CANVAS_MANAGER._caching
-    pane._canvas[0].fill_rect(0, 0, 1, 1)
-    assert [names(message) for message in sent] == [["switchCanvas"], ["fillRect"]]
+    pane._picture.canvas[0].fill_rect(0, 0, 1, 1)
+    assert [drawing.names for drawing in sent] == [["switchCanvas"], ["fillRect"]]
 
 
 def test_a_section_with_little_data_is_drawn(sent):
-    pane = shown(sw.Section([[0.0, np.nan], [0.0, np.nan]], dx=1, dz=1))
-    assert "drawImage" in names(sent[-1])
-    assert pane._colouring().levels(pane._texture.amplitude).tolist() == [[128, 0], [128, 0]]
+    shown(sw.Section([[0.0, np.nan], [0.0, np.nan]], dx=1, dz=1))
+    assert sent[-1].image()[..., 3].tolist() == [[255, 0], [255, 0]]
+    assert sent[-1].image()[0, 0].tolist() == [128, 128, 128, 255]

@@ -4,7 +4,6 @@ from ipywidgets import Button
 
 import seiswidgets as sw
 from seiswidgets.geology.plan import FLATTEN, UNFAULT
-from tests.widgets.test_pane import loud_callbacks  # noqa: F401
 
 EVIL = "<img src=x onerror=alert(1)>"
 F1, F2 = (sw.Fault([[x, 0], [x, 9]], name) for x, name in ((1, "F1"), (2, EVIL)))

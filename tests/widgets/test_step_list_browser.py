@@ -1,4 +1,4 @@
-from tests.widgets.browser import SCREENSHOTS, chromium, lab, notebook  # noqa: F401
+from tests.widgets.browser import SCREENSHOTS
 from tests.widgets.test_pane_browser import until
 
 CELL = """
@@ -14,7 +14,7 @@ FOCUSED = "(tip) => [...document.querySelectorAll(`button[title='${tip}']`)].ind
 EARLIER, LATER = "Do this step earlier", "Do this step later"
 
 
-def test_steps_by_keyboard_with_the_focus_kept(notebook):  # noqa: F811
+def test_steps_by_keyboard_with_the_focus_kept(notebook):
     opened = notebook(CELL)
     press = opened.page.keyboard.press
     opened.page.get_by_title(EARLIER).nth(2).focus()
@@ -26,7 +26,7 @@ def test_steps_by_keyboard_with_the_focus_kept(notebook):  # noqa: F811
     opened.page.wait_for_function(f"({FOCUSED})('{LATER}') === 0")
 
 
-def test_typing_a_datum(notebook):  # noqa: F811
+def test_typing_a_datum(notebook):
     opened = notebook(CELL)
     datum = opened.page.get_by_placeholder("mean level").nth(2)
     datum.fill("abc")
@@ -41,7 +41,7 @@ def test_typing_a_datum(notebook):  # noqa: F811
     opened.page.get_by_role("alert").wait_for(state="detached")
 
 
-def test_names_are_text_and_all_fits_a_narrow_place(notebook):  # noqa: F811
+def test_names_are_text_and_all_fits_a_narrow_place(notebook):
     opened = notebook(CELL)
     choice = opened.page.locator(".widget-dropdown select").first
     choice.wait_for()

@@ -1,6 +1,5 @@
 import pytest
 
-from tests.widgets.browser import chromium, lab, notebook  # noqa: F401
 from tests.widgets.test_pane_browser import until
 
 CELL = """
@@ -13,7 +12,7 @@ timeline
 
 
 @pytest.mark.parametrize("start", [2.0, 0.55])
-def test_play_runs_once_to_the_end(notebook, start):  # noqa: F811
+def test_play_runs_once_to_the_end(notebook, start):
     opened = notebook(CELL)
     opened.page.get_by_text("restored", exact=True).wait_for()
     opened.ask(f"timeline.set_trait('time', {start})")
@@ -28,7 +27,7 @@ def test_play_runs_once_to_the_end(notebook, start):  # noqa: F811
     opened.page.get_by_text("restored", exact=True).wait_for()
 
 
-def test_the_slider_keeps_its_place_after_a_reload(notebook):  # noqa: F811
+def test_the_slider_keeps_its_place_after_a_reload(notebook):
     opened = notebook(CELL)
     opened.page.get_by_text("restored", exact=True).wait_for()
     opened.ask("timeline.set_trait('time', 0.3)")

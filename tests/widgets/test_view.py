@@ -138,6 +138,29 @@ def test_the_exaggeration_of_a_time_section_is_of_rock():
     assert view.exaggeration == pytest.approx((600 / rock[1]) / (900 / rock[0]))
 
 
+def test_a_frame_is_fitted_instead_of_the_section(view):
+    x_min, x_max, z_min, z_max = view.whole
+    frame = x_min - 100, x_max + 50, z_min, z_max + 200
+    framed = view.framed(frame)
+    assert framed.window == framed.whole == frame
+    assert framed.covered == view.whole
+    closer = framed.zoomed(1.1, at=(0, 0))
+    assert not closer.is_fitted
+    assert closer.fitted() == framed
+    assert closer.framed(None).window == closer.window
+    assert framed.framed(None) == view
+    farthest = framed.zoomed(1e-9)
+    assert np.diff(farthest.window)[[0, 2]] == near(FARTHEST * np.diff(frame)[[0, 2]])
+
+
+def test_another_section_in_the_same_view():
+    view, part = View(DEPTH, 500, 400, 2), sw.Section(NOISE[:50], dx=25.0, dz=10.0, x0=700_000.0)
+    assert view.of(part) == View(part, 500, 400, 2)
+    closer = view.zoomed(2)
+    assert closer.of(part).window == closer.window
+    assert closer.of(TIME) == View(TIME, 500, 400, 2)  # a window in metres means nothing there
+
+
 def test_resizing(view):
     assert view.resized(500, 400).is_fitted
     closer = view.zoomed(1.5, at=(10, 10)).exaggerated(3)
@@ -184,6 +207,9 @@ def test_axes_name_their_units():
         (lambda view: view.exaggerated(-1), "exaggeration must be .* above 0, but is -1"),
         (lambda view: View(view.section, window=(0, 0, 1, 2)), "window must be .* each minimum first"),
         (lambda view: View(view.section, window=(0, np.inf, 1, 2)), "window must be"),
+        (lambda view: View(view.section, window=(0, 1, 2)), "window must be"),
+        (lambda view: View(view.section, frame=(0, 1, 3, 2)), "frame must be"),
+        (lambda view: view.framed("all"), "frame must be .* 'all'"),
     ],
 )
 def test_what_cannot_be_shown(change, message):

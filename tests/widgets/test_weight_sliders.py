@@ -4,7 +4,6 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.widgets.weightsliders import GROUPS
-from tests.widgets.test_pane import loud_callbacks  # noqa: F401
 
 NAMES = [field.name for field in fields(sw.Weights)]
 

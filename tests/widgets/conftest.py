@@ -1,0 +1,81 @@
+import contextlib
+import os
+import shutil
+import subprocess
+
+import ipywidgets
+import pytest
+
+from tests.widgets.bare import BareLayer
+from tests.widgets.browser import FLAGS, Notebook, Server
+
+
+@pytest.fixture(autouse=True)
+def loud_callbacks(monkeypatch):
+    """Callbacks that fail, fail the test: ipywidgets would log that and go on."""
+
+    def call(self, *args, **kwargs):
+        return [callback(*args, **kwargs) for callback in self.callbacks]
+
+    monkeypatch.setattr(ipywidgets.CallbackDispatcher, "__call__", call)
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """A running Chromium; skips where there is none, but never in CI."""
+    path = shutil.which("chromium") or shutil.which("google-chrome")
+    if path is None:
+        missing = "there is no Chromium here; on Debian: apt-get install chromium"
+        pytest.fail(missing) if os.environ.get("CI") else pytest.skip(missing)
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def lab(tmp_path_factory):
+    """The address of a JupyterLab of its own, its token and its folder."""
+    folder = tmp_path_factory.mktemp("lab")
+    server = Server(folder)
+    try:
+        server.wait()
+        yield server
+    finally:
+        server.process.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            server.process.wait(10)
+        if server.process.poll() is None:
+            server.process.kill()
+
+
+@pytest.fixture
+def notebook(lab, chromium):
+    """A function that opens a notebook with some cells and runs them; at the end the console must hold no error."""
+    opened = []
+
+    def open_notebook(*cells, **options):
+        opened.append(Notebook(lab, chromium, cells, **options))
+        return opened[-1]
+
+    yield open_notebook
+    for one in opened:
+        one.close()
+    assert [error for one in opened for error in one.errors] == []
+
+
+@pytest.fixture
+def bare_layer(chromium):
+    """A function that shows the pointer layer in a page of its own; at the end the console must hold no error."""
+    opened = []
+
+    def open_layer(**options):
+        opened.append(BareLayer(chromium, **options))
+        return opened[-1]
+
+    yield open_layer
+    for one in opened:
+        one.close()
+    assert [error for one in opened for error in one.errors] == []
