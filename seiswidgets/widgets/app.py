@@ -226,7 +226,8 @@ class RestorationApp(VBox):
     def _show_whole(self, frame, restoration):
         self.panes.show(frame)
         self._whole = frame
-        self.restoration = self.panes.restoration = restoration
+        self.panes.restoration = restoration
+        self.restoration = restoration
         self.timeline.labels = [stage.kind for stage in restoration.stages]
         self.timeline.time = len(restoration.stages)
         self.reports.show(restoration)
