@@ -5,7 +5,7 @@ from html import escape
 
 import numpy as np
 from ipywidgets import HTML, GridBox, Layout, VBox
-from traitlets import Any, Enum, Float, Instance, Int, Unicode, observe, validate
+from traitlets import Any, Enum, Float, Instance, Int, Unicode, dlink, observe, validate
 
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.section import Section
@@ -86,7 +86,7 @@ class SectionPane(VBox):
     message = Unicode()
 
     def __init__(self, section: Section, *, exaggeration: float | None = None, **settings):
-        self._navigation, self._is_moving, self._mesh = Navigation(), False, None
+        self._navigation, self._mesh, self._will_move = Navigation(), None, False
         self._gesture_listeners, self._hover_listeners = [], []
         self._picture = Picture(_placed())
         self._picture.canvas.add_class("seiswidgets-plot")
@@ -96,23 +96,23 @@ class SectionPane(VBox):
         super().__init__([self._grid, self._line], section=section, view=View(section), **settings)
         self._grid.layout.height = f"{self.height}px"
         self.view = self.view if exaggeration is None else self.view.exaggerated(exaggeration)
+        dlink((self, "mesh_opacity"), (self.layer, "mesh_opacity"))
         self.layer.on_happening(self._receive)
 
     def show(self, section: Section, *, moving: bool = False) -> None:
         """Show another section, in the same window unless all of the old one was shown.
 
-        Parameters
-        ----------
-        section : Section
-        moving : bool
-            Whether another one follows soon: then it is drawn quickly rather than finely.
+        One that is ``moving``, as another follows soon, is drawn quickly rather than finely; to set ``section`` is to
+        show it at rest.
         """
         with held():
-            was_moving, self._is_moving = self._is_moving, moving
-            if section is not self.section:
+            self._will_move = moving
+            try:
+                if section is self.section and moving != self._picture.is_moving:
+                    self._take_section()
                 self.section = section
-            elif moving != was_moving:
-                self._take_section()
+            finally:
+                self._will_move = False
 
     def draw_lines(self, strokes: Sequence[Stroke]) -> None:
         """Show these lines on the section, and no others."""
@@ -128,8 +128,8 @@ class SectionPane(VBox):
         Parameters
         ----------
         maps : sequence of (source, target, triangles)
-            Applied one after the other; each carries from places of vertices, shape (n, 2), to others, in the
-            section's units, and is affine in each triangle. Without any, a place is carried to itself.
+            Applied one after the other; each is affine in each triangle, and carries places of vertices, shape (n, 2),
+            in the section's units, to others. Without any, a place is carried to itself.
         """
         self.layer.chain = [map_state(*each) for each in maps]
 
@@ -186,7 +186,7 @@ class SectionPane(VBox):
     @observe("section")
     def _take_section(self, change=None):
         with held():
-            self._picture.take(self.section, self._is_moving)
+            self._picture.take(self.section, self._will_move)
             self._picture.colouring = self._colouring()
             self.layer.label = f"{self.section.name or 'seismic section'}; zoom with + and -, 0 fits, arrows pan"
             if self.view.section is not self.section:
@@ -224,10 +224,6 @@ class SectionPane(VBox):
                 self._picture.cover(self.overlay)
             self._picture.opacity = self.overlay_opacity
             self._picture.draw(self.view)
-
-    @observe("mesh_opacity")
-    def _take_mesh_opacity(self, change):
-        self.layer.mesh_opacity = self.mesh_opacity
 
     @observe("height")
     def _take_height(self, change):

@@ -27,6 +27,8 @@ class Picture:
     colouring : Colouring
     opacity : float
         Of the overlay, 0 to 1.
+    is_moving : bool
+        Whether the section is drawn coarsely, as another follows soon.
     """
 
     def __init__(self, layout: Layout):
@@ -34,12 +36,12 @@ class Picture:
         self.colouring, self.opacity = None, 1.0
         self._section, self._overlay = None, None
         self._view, self._refined = None, None  # as last drawn, and as last painted finely
-        self._is_moving, self._is_seen = False, False
+        self.is_moving, self._is_seen = False, False
         self._whole, self._detail, self._glimpse, self._map = self._textures = [Texture() for _ in range(4)]
 
     def take(self, section: Section, is_moving: bool = False) -> None:
         """Another section is to be drawn next, coarsely if it moves."""
-        self._section, self._is_moving = section, is_moving
+        self._section, self.is_moving = section, is_moving
         self._forget()
 
     def colour(self, colouring: Colouring) -> None:
@@ -79,7 +81,7 @@ class Picture:
 
     def sharpen(self, view: View) -> None:
         """Draw what is shown anew from the amplitudes, where the section's picture is too coarse for it."""
-        if self._is_seen and not self._is_moving and view != self._refined:
+        if self._is_seen and not self.is_moving and view != self._refined:
             with held():
                 self._refine(view)
                 self.draw(view)
@@ -90,13 +92,13 @@ class Picture:
 
     def _paint(self, view):
         """Make those textures that are missing; what moves is made for one view only."""
-        if self._is_moving and not (self._glimpse.picture and view == self._view):
+        if self.is_moving and not (self._glimpse.picture and view == self._view):
             self._fill(self._glimpse, glimpse(self._section, view))
-        elif not self._is_moving and not self._whole.picture:
+        elif not self.is_moving and not self._whole.picture:
             self._fill(self._whole, whole(self._section, view))
             self._refine(view)
         if self._overlay is not None and not self._map.picture:
-            self._map.paint(self._overlay.levels, self._overlay.palette, self._overlay.window, self._is_moving)
+            self._map.paint(self._overlay.levels, self._overlay.palette, self._overlay.window, self.is_moving)
 
     def _refine(self, view):
         self._refined = view
@@ -107,4 +109,4 @@ class Picture:
 
     def _fill(self, texture, sample):
         amplitude, window = sample
-        texture.paint(self.colouring.levels(amplitude), self.colouring.palette, window, self._is_moving)
+        texture.paint(self.colouring.levels(amplitude), self.colouring.palette, window, self.is_moving)

@@ -271,6 +271,10 @@ def test_a_section_that_moves_is_sent_quickly_in_one_message_each(sent, publishe
     pane.show(pane.section)
     assert len(sent) == 5
     assert sent[-1].image().shape == (600, 900, 4)
+    pane.show(restored(7), moving=True)
+    pane.section = restored(8)
+    assert len(sent) == 7
+    assert sent[-1].image().shape == (600, 900, 4)
 
 
 def test_a_section_that_moves_looks_as_when_it_rests(sent):
