@@ -7,6 +7,7 @@ from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.errors import SettingError
 
 LEAST_SPAN = 1.01  # of a histogram whose areas have all stayed the same
+SPANS = (1.02, 1.05, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0)  # area ratios at which colours may end
 
 
 def area_ratio(mesh: Mesh, vertices) -> np.ndarray:
@@ -80,3 +81,15 @@ def weighted_percentiles(values, weights, percents) -> np.ndarray:
     through = np.cumsum(sorted_weights)
     middle = 100 * (through - sorted_weights / 2) / through[-1]
     return np.interp(percents, middle, np.asarray(values, float)[order])
+
+
+def colour_span(ratio, areas) -> float:
+    """The round area ratio from whose inverse to which 98% of the area lie, at most 5: where colours end.
+
+    Parameters
+    ----------
+    ratio, areas : array, shape (m,)
+    """
+    low, high = weighted_percentiles(ratio, areas, (1, 99))
+    farthest = max(high, 1 / low)
+    return next((span for span in SPANS if span >= farthest), SPANS[-1])

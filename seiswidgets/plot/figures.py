@@ -7,7 +7,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
+from seiswidgets.core.deformation import area_ratio_histogram, colour_span, weighted_percentiles
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.plot.frame import WIDTH, Window, framed
@@ -23,7 +23,6 @@ from seiswidgets.plot.pictures import (
 )
 
 COLOURS = "RdBu_r"  # red is compression, blue dilatation; told apart by the colour-blind too
-SPANS = (1.02, 1.05, 1.1, 1.25, 1.5, 2, 3, 5)  # area ratios at which the colours end
 
 
 def deformation(
@@ -128,7 +127,7 @@ def _draw_deformation(ax, histogram, restored, interpretation, frame, span):
     """The map of the last stage's area ratio, and the histogram, which stands on the colour bar of both."""
     stage = restored.stages[-1]
     percentiles = weighted_percentiles(stage.area_ratio, stage.mesh.areas, (1, 50, 99))
-    span = _chosen_span(percentiles) if span is None else span
+    span = colour_span(stage.area_ratio, stage.mesh.areas) if span is None else span
     bins, shares = area_ratio_histogram(stage.area_ratio, stage.mesh.areas, span=span)
     colours = ScalarMappable(LogNorm(1 / span, span), COLOURS)
     _draw_map(ax, restored, interpretation, colours)
@@ -136,11 +135,6 @@ def _draw_deformation(ax, histogram, restored, interpretation, frame, span):
     _draw_histogram(histogram, bins, shares, colours)
     low, median, high = (f"{value:.3f}" for value in percentiles)
     histogram.set_title(f"median {median}\n98% of the area from {low} to {high}", loc="left", fontsize=8.5)
-
-
-def _chosen_span(percentiles):
-    farthest = max(percentiles.max(), 1 / percentiles.min())
-    return next((span for span in SPANS if span >= farthest), SPANS[-1])
 
 
 def _draw_map(ax, restored, interpretation, colours):

@@ -136,7 +136,7 @@ class RestorationApp(VBox):
         super().close()
 
     def _make_parts(self, section, height):
-        self.panes = LinkedPanes(section, height=height)
+        self.panes = LinkedPanes(section, height=height, deformation=0.5)
         self.picker = Picker(self.panes.original)
         self.picker.attach(self.panes.restored, self.panes.sight)
         self.histogram = DeformationHistogram()

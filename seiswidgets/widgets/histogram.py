@@ -69,7 +69,7 @@ class DeformationHistogram(anywidget.AnyWidget):
     @property
     def colouring(self) -> RatioColouring:
         """The bars' colours, for a map beside them."""
-        return RatioColouring.of(self._ratio)
+        return RatioColouring.of(self._ratio, self._areas)
 
     def show(self, ratio, areas=None) -> None:
         """Show other numbers; the brush stays.
@@ -134,9 +134,9 @@ def _checked(ratio, areas):
 
 
 def _bars(ratio, areas, bins):
-    edges, shares = area_ratio_histogram(ratio, areas, bins)
-    colouring = RatioColouring(edges[-1])
-    colours = colouring.palette()[colouring.levels(np.sqrt(edges[:-1] * edges[1:]))] / 255
+    colouring = RatioColouring.of(ratio, areas)
+    edges, shares = area_ratio_histogram(ratio, areas, bins, colouring.span)
+    colours = colouring.palette()[colouring.levels(np.sqrt(edges[:-1] * edges[1:])), :3] / 255
     percents = MaxNLocator(3).tick_values(0, 100 * shares.max())
     return {
         "edges": edges.tolist(),

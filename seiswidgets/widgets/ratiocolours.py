@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import matplotlib as mpl
 import numpy as np
 
-from seiswidgets.core.deformation import LEAST_SPAN, area_ratio_histogram
+from seiswidgets.core.deformation import LEAST_SPAN, colour_span
 from seiswidgets.plot.figures import COLOURS
 
-FADED = 0.12  # opacity of what lies outside the brush
+FADED = 0.12  # times as opaque is what lies outside the brush
+FADING = 0.6  # power of the distance from 1 that the opacity grows with
 
 
 @dataclass(frozen=True)
@@ -24,14 +25,13 @@ class RatioColouring:
     span: float
 
     @classmethod
-    def of(cls, ratio) -> "RatioColouring":
-        """The colouring whose span is that of the histogram of some area ratios, NaNs left out."""
-        known = np.asarray(ratio, float)
-        known = known[~np.isnan(known)]
-        if not len(known):
+    def of(cls, ratio, areas=None) -> "RatioColouring":
+        """The colouring that suits some area ratios, NaNs left out; of triangles of equal area, if none are given."""
+        known = ~np.isnan(ratio)
+        if not known.any():
             return cls(LEAST_SPAN)
-        edges, _ = area_ratio_histogram(known, np.ones(len(known)), bins=1)
-        return cls(float(edges[-1]))
+        areas = np.ones(np.shape(ratio)) if areas is None else np.asarray(areas)
+        return cls(colour_span(np.asarray(ratio)[known], areas[known]))
 
     def levels(self, ratio) -> np.ndarray:
         """Places in the palette, uint8 of the same shape: 1 to 255, 128 for ratio 1, and 0 for NaN."""
@@ -41,14 +41,18 @@ class RatioColouring:
     def palette(self, brush: tuple[float, float] | None = None) -> np.ndarray:
         """Red, green, blue and alpha of each level, shape (256, 4), uint8; level 0 is transparent.
 
+        The nearer to 1 the more transparent, so that rock which has kept its area is seen as it is.
+
         Parameters
         ----------
         brush : (low, high), optional
-            Area ratios; what lies outside is nearly transparent.
+            Area ratios; what lies between is opaque, and what lies outside nearly transparent.
         """
         colours = np.vstack([np.zeros(4), mpl.colormaps[COLOURS](np.linspace(0, 1, 255))])
+        level = np.arange(256)
+        colours[1:, 3] = (np.abs(level[1:] - 128) / 127) ** FADING
         if brush is not None:
             low, high = self.levels(brush)
-            level = np.arange(256)
-            colours[(level < low) | (level > high), 3] *= FADED
+            inside = (level >= max(low, 1)) & (level <= high)
+            colours[:, 3] = np.where(inside, 1.0, FADED * colours[:, 3])
         return np.rint(255 * colours).astype(np.uint8)

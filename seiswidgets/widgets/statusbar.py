@@ -34,22 +34,22 @@ class StatusBar(Box):
     def __init__(self, restore: Callable[[], None], cancel: Callable[[], None]):
         button = Button(description="Restore", icon="play", button_style="primary", tooltip="restore the section now")
         live = ToggleButton(description="Live", icon="bolt", tooltip="restore by itself after every change")
-        self._bar = FloatProgress(min=0, max=1, layout=Layout(width="120px"))
-        self._label = Label(layout=Layout(width="290px"))
+        self._bar = FloatProgress(min=0, max=1, layout=Layout(width="100px"))
+        self._label = Label(layout=Layout(width="270px"))
         self._cancel = Button(description="Cancel", icon="stop", tooltip="give up the restoration that is under way")
         for widget in (button, live, self._cancel):
             widget.layout = Layout(width="auto")
-        self._progress = HBox([self._bar, self._label, self._cancel], layout=Layout(visibility="hidden"))
-        self._line = HTML(layout=Layout(flex="1 1 300px", min_height="1.4em"))
+        self._progress = HBox([self._bar, self._label, self._cancel], layout=Layout(display="none"))
+        self._line = HTML(layout=Layout(flex="1 1 0", min_width="0", margin="2px"))
         button.on_click(lambda _: restore())
         self._cancel.on_click(lambda _: cancel())
         self.buttons = HBox([button, live])
-        super().__init__([self._line, self._progress], layout=Layout(flex_flow="row wrap", align_items="center"))
+        super().__init__([self._line, self._progress], layout=Layout(align_items="center", min_height="36px"))
         tie(self, "live", live)
 
     def tell(self, progress) -> None:
         """Show how far a restoration is; None when none is under way."""
-        self._progress.layout.visibility = "hidden" if progress is None else "visible"
+        self._progress.layout.display = "none" if progress is None else ""
         if progress is None:
             return
         self._bar.value = (progress.step + progress.iteration / (progress.iteration + HALF)) / progress.steps

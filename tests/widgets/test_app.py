@@ -207,7 +207,7 @@ def test_progress_names_the_step_its_iteration_and_the_energy(app, monkeypatch):
     app.weights = sw.Weights(stitch=77.0)
     assert app.wait(LONG)
     assert any(text.startswith("unfault: iteration 1, energy ") and text.endswith("m²") for text in said)
-    assert app.status._progress.layout.visibility == "hidden"
+    assert app.status._progress.layout.display == "none"
 
 
 def test_what_is_wrong_is_said_in_the_app_and_beside_the_pick(app, case):
