@@ -2,7 +2,13 @@ import numpy as np
 import pytest
 import shapely
 
-from seiswidgets.core.deformation import area_ratio, area_ratio_histogram, principal_stretches, weighted_percentiles
+from seiswidgets.core.deformation import (
+    area_ratio,
+    area_ratio_histogram,
+    colour_span,
+    principal_stretches,
+    weighted_percentiles,
+)
 from seiswidgets.core.triangulation import triangulate
 from seiswidgets.errors import SettingError
 
@@ -104,3 +110,14 @@ def test_a_weight_in_pieces_gives_the_same_median():
     whole = weighted_percentiles(values, weights, [10, 50, 90])
     pieces = weighted_percentiles(np.repeat(values, weights), np.ones(weights.sum()), [10, 50, 90])
     np.testing.assert_allclose(whole, pieces, atol=0.02)
+
+
+@pytest.mark.parametrize(("share", "span"), [(0.005, 1.02), (0.05, 1.5)])
+def test_colours_end_at_the_round_ratio_that_holds_98_percent_of_the_area(share, span):
+    ratio = np.where(np.arange(1000) < 1000 * share, 1 / 1.4, 1.01)
+    assert colour_span(ratio, np.ones(1000)) == span
+    assert colour_span(1 / ratio, np.ones(1000)) == span
+
+
+def test_colours_end_somewhere_however_strong_the_deformation():
+    assert colour_span([0.01, 100.0], [1.0, 1.0]) == 5.0

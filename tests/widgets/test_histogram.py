@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
+from seiswidgets.core.deformation import area_ratio_histogram, colour_span, weighted_percentiles
 from seiswidgets.plot.figures import COLOURS
 from seiswidgets.widgets.histogram import APART, ratio_ticks
 from seiswidgets.widgets.ratiocolours import RatioColouring
@@ -34,7 +34,15 @@ def test_the_palette_is_that_of_the_deformation_map():
     norm = mpl.colors.LogNorm(0.5, 2)
     for ratio in (0.5, 0.7, 1.0, 1.3, 2.0):
         expected = 255 * np.array(mpl.colormaps[COLOURS](norm(ratio)))
-        np.testing.assert_allclose(palette[RatioColouring(2.0).levels(ratio)], expected, atol=4)
+        np.testing.assert_allclose(palette[RatioColouring(2.0).levels(ratio), :3], expected[:3], atol=4)
+
+
+def test_what_has_kept_its_area_is_clear_and_what_has_changed_most_is_opaque():
+    alpha = RatioColouring(2.0).palette()[:, 3].astype(int)
+    assert alpha[128] == 0
+    assert alpha[1] == alpha[255] == 255
+    assert (np.diff(alpha[1:129]) <= 0).all()
+    assert (np.diff(alpha[128:]) >= 0).all()
 
 
 def test_what_lies_in_the_brush_is_lit_and_nothing_else():
@@ -44,7 +52,7 @@ def test_what_lies_in_the_brush_is_lit_and_nothing_else():
     alpha = colouring.palette((low, high))[colouring.levels(ratio), 3]
     assert (alpha[(ratio >= low) & (ratio <= high)] == 255).all()
     level = 2.0 ** (1 / 127)
-    assert set(alpha[(ratio < low / level) | (ratio > high * level)]) == {round(0.12 * 255)}
+    assert alpha[(ratio < low / level) | (ratio > high * level)].max() <= 0.12 * 255 + 1
     assert colouring.palette((low, high))[0, 3] == 0
 
 
@@ -53,17 +61,16 @@ def test_a_brush_to_the_end_holds_what_lies_beyond():
     assert colouring.palette((1.5, 2.0))[colouring.levels(50.0), 3] == 255
 
 
-def test_the_span_is_that_of_the_histogram(numbers):
+def test_the_span_is_that_of_figures(numbers):
     ratio, areas = numbers
-    edges, _ = area_ratio_histogram(ratio, areas)
-    assert RatioColouring.of([*ratio, np.nan]).span == edges[-1]
+    assert RatioColouring.of([*ratio, np.nan], [*areas, 1.0]).span == colour_span(ratio, areas)
     assert RatioColouring.of([]).span > 1
     assert RatioColouring.of([np.nan]).span > 1
 
 
 def test_bars_are_the_histogram_in_the_colours_of_the_map(numbers):
     widget = sw.DeformationHistogram(*numbers)
-    edges, shares = area_ratio_histogram(*numbers)
+    edges, shares = area_ratio_histogram(*numbers, span=colour_span(*numbers))
     assert widget.bars["edges"] == edges.tolist()
     assert widget.bars["shares"] == shares.tolist()
     middles = np.sqrt(edges[:-1] * edges[1:])
