@@ -12,6 +12,7 @@ from seiswidgets.geology.weights import Weights
 
 GAUSS_NEWTON, FIXED_POINT = "gauss-newton", "fixed-point"
 TOLERANCE = 1e-6  # of the mesh spacing
+INWARDS = 1e-3, 0.1, 0.5  # of the way to a triangle's centre
 MOST_ITERATIONS = {GAUSS_NEWTON: 200, FIXED_POINT: 1000}
 
 
@@ -98,18 +99,26 @@ def warm_start(mesh: Mesh, free, earlier) -> np.ndarray | None:
     if earlier.laid.mesh is mesh:
         moved = earlier.vertices[: len(mesh.vertices)].copy()  # a weld adds vertices behind the mesh's own
     else:
-        moved = earlier.map.forward(mesh.vertices, earlier.map.source_finder(_on_own_side(mesh)))
+        moved = earlier.map.forward(mesh.vertices, _triangles_before(mesh, earlier))
     moved[~free] = mesh.vertices[~free]
     lost = ~np.isfinite(moved).all() or triangle_areas(moved, mesh.triangles).min() <= 0
     return None if lost else moved
 
 
-def _on_own_side(mesh):
-    """The vertices drawn a little into one of their triangles each: a vertex on a cut lies on that side of it."""
+def _triangles_before(mesh, earlier):
+    """The triangle of an earlier stage's mesh that carries each vertex, -1 where there is none; shape (n,).
+
+    It is looked for a little inside one of the vertex's own triangles: a vertex on a cut lies on that side of it. Where
+    the rock now reaches beyond the earlier mesh, it is looked for farther inside, and carries what lies beside it.
+    """
     corner = np.empty(len(mesh.vertices), int)
     corner[mesh.triangles.ravel()] = np.arange(mesh.triangles.size)
-    centres = mesh.vertices[mesh.triangles[corner // 3]].mean(axis=1)
-    return mesh.vertices + 1e-3 * (centres - mesh.vertices)
+    inwards = mesh.vertices[mesh.triangles[corner // 3]].mean(axis=1) - mesh.vertices
+    found = np.full(len(mesh.vertices), -1)
+    for share in INWARDS:
+        missing = np.flatnonzero(found < 0)
+        found[missing] = earlier.map.source_finder(mesh.vertices[missing] + share * inwards[missing])
+    return found
 
 
 def nearest_rigid(rest, moved, masses) -> np.ndarray:
