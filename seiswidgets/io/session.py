@@ -13,6 +13,7 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io import sessionfile
 from seiswidgets.io.atomic import write_atomically
+from seiswidgets.io.document import LARGEST_JSON, check_size
 from seiswidgets.io.picks.lines import FAULT, HORIZON
 from seiswidgets.io.savedpicks import SavedPick, saved, usable
 from seiswidgets.io.sources import SectionSource, section_sha256
@@ -103,10 +104,12 @@ class Session:
         Raises
         ------
         DataError
-            If it cannot be written.
+            If it cannot be written, or is too large to be read again.
         """
         path = Path(path)
-        write_atomically(path, sessionfile.text(self, path.parent).encode())
+        content = sessionfile.text(self, path.parent).encode()
+        check_size(path, content, LARGEST_JSON)
+        write_atomically(path, content)
 
     @property
     def interpretation(self) -> Interpretation:

@@ -8,11 +8,12 @@ from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.weights import Weights
-from seiswidgets.io.document import Entry, json_text, read_json
+from seiswidgets.io.document import Entry, json_text, read_json, shortened
 from seiswidgets.io.savedpicks import SavedPick
 from seiswidgets.io.sources import FILE, SectionSource, relative, resolved
 
 FORMAT, VERSION = "seiswidgets session", 1
+DEEPEST = 4  # lists within lists in the choices of a source
 COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")
 
 
@@ -106,7 +107,7 @@ def _made(entry, make, *values, **named):
     try:
         return make(*values, **named)
     except SeiswidgetsError as error:
-        raise DataError(f"{entry.path}: {entry.place}: {error}") from error
+        raise DataError(f"{entry.path}: {entry.place}: {shortened(str(error))}") from error
 
 
 def _source(entry, allow_outside):
@@ -120,12 +121,16 @@ def _source(entry, allow_outside):
 
 
 def _choices(entry):
-    return {name: _choice(entry[name]) for name in entry.members()}
+    return {name: _choice(entry[name], 1) for name in entry.members()}
 
 
-def _choice(entry):
+def _choice(entry, depth):
+    if depth > DEEPEST:
+        raise entry.error(f"nested no more than {DEEPEST} deep")
     if isinstance(entry.value, list):
-        return [_choice(item) for item in entry.items()]
+        return [_choice(item, depth + 1) for item in entry.items()]
+    if isinstance(entry.value, dict):
+        return {name: _choice(entry[name], depth + 1) for name in entry.value}
     if entry.value is None or isinstance(entry.value, bool):
         return entry.value
     if isinstance(entry.value, str):

@@ -8,7 +8,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.errors import DataError, PickError, SettingError
 from seiswidgets.io.savedpicks import SavedPick
-from seiswidgets.io.sources import npz, section_sha256
+from seiswidgets.io.sources import _revived, npz, section_sha256
 from tests.sections import real_section
 
 SYNTHETIC = sw.SectionSource("synthetic", "faulted_fold", {"throw": 120.0, "horizons": [700.0, 1000.0], "seed": 3})
@@ -208,7 +208,7 @@ def test_nothing_is_unpickled(saved, tmp_path):
             "the synthetic section must be one of planar_fault, .* '__import__'",
         ),
         ("dataset", "located", {}, SettingError, "the dataset section must be one of f3, teapot"),
-        ("synthetic", "tilt", {"dip": {}}, SettingError, r"dip must be a finite number, .* but is \{\}"),
+        ("synthetic", "tilt", {"dip": 1j}, SettingError, r"dip must be a finite number, .* but is 1j"),
         ("synthetic", "tilt", {"dip": float("nan")}, SettingError, "dip must be a finite number"),
         ("synthetic", "tilt", {"dip": "steep"}, DataError, "the section cannot be made with {'dip': 'steep'}"),
         (
@@ -228,11 +228,21 @@ def test_nothing_is_unpickled(saved, tmp_path):
         ),
         ("dataset", "f3", {"speed": 3}, DataError, "the section cannot be made with {'speed': 3}"),
         ("file", "line.sgy", {}, DataError, "line.sgy cannot be opened"),
+        ("file", "line.npz", {"traces": {"range": [1, 9, 0]}}, DataError, "the section cannot be made with .*'traces'"),
     ],
 )
 def test_sources_that_make_no_section(kind, name, choices, error, match):
     with pytest.raises(error, match=match):
         sw.SectionSource(kind, name, choices).open()
+
+
+def test_slices_and_ranges_are_kept(session, tmp_path):
+    choices = {"traces": slice(3, None), "lines": range(1, 9, 2), "header_bytes": {"inline": 189}, "extent": (0, 1.5)}
+    source = sw.SectionSource("file", str(tmp_path / "line.sgy"), choices)
+    replace(session, source=source).save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json").source == source
+    kept = {name: _revived(value) for name, value in source.choices.items()}
+    assert kept == {**choices, "extent": [0, 1.5]}
 
 
 # --- versions
@@ -292,7 +302,7 @@ def test_newer_versions_say_so(saved, version):
         (lambda d: d["section"].pop("source"), "section lacks 'source'"),
         (lambda d: d["section"]["source"].update(kind="web"), "section.source: a section's source must be"),
         (lambda d: d["section"]["source"].update(name="exec"), "section.source: the synthetic section must be one of"),
-        (lambda d: d["section"]["source"].update(arguments={"dip": {}}), "arguments.dip must be a number"),
+        (lambda d: d["section"]["source"].update(arguments={"dip": [[[[[1]]]]]}), "must be nested no more than 4 deep"),
         (lambda d: d["section"].update(sha256="abc"), "section.sha256 must be a SHA-256"),
         (lambda d: d["picks"].update(faults={}), r"picks.faults must be a list \[...\], but is an object of 0"),
         (lambda d: d["picks"]["faults"][0]["points"].insert(5, [1]), r"picks.faults\[0\].points\[5\] must be a point"),

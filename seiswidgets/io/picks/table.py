@@ -7,10 +7,11 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import read_text
+from seiswidgets.io.document import LARGEST_TEXT, read_text
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
 from seiswidgets.io.picks.numbers import number
 
+LARGEST = LARGEST_TEXT
 COLUMNS = ("kind", "name", "piece", "x", "z")
 
 
