@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from seiswidgets.errors import DataError
 
 LARGEST_TEXT = 64 * 2**20  # bytes; a horizon of a 3-D survey, exported, is of that order
@@ -77,8 +79,14 @@ def shortened(text: str, most: int = 600) -> str:
 
 def json_text(value) -> str:
     """A value as JSON that a person can read: a point a line, and every number as exact as it is."""
-    text = json.dumps(value, indent=1, allow_nan=False)
+    text = json.dumps(value, indent=1, allow_nan=False, default=_plain_number)
     return POINT.sub(r"[\1, \2]", text) + "\n"
+
+
+def _plain_number(value):
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{value!r} is no number, text or list")
 
 
 def _refused(constant):

@@ -14,7 +14,6 @@ from seiswidgets.io.sources import FILE, SectionSource, relative, resolved
 
 FORMAT, VERSION = "seiswidgets session", 1
 DEEPEST = 4  # lists within lists in the choices of a source
-COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")
 
 
 def _from_version_0(old: dict) -> dict:
@@ -155,10 +154,12 @@ def _horizons(entry):
 
 def _named(entry, pieces):
     picks = tuple(
-        SavedPick(
+        _made(
+            pick,
+            SavedPick,
             pick["name"].text(),
             pieces(pick),
-            pick.optional("colour", _colour),
+            pick.optional("colour", Entry.text),
             pick.optional("visible", Entry.flag, True),
         )
         for pick in entry.items()
@@ -169,12 +170,6 @@ def _named(entry, pieces):
             raise item["name"].error("a name that no other has")
         names.add(pick.name)
     return picks
-
-
-def _colour(entry):
-    if not COLOUR.fullmatch(entry.text()):
-        raise entry.error("#rrggbb or the name of a colour")
-    return entry.text()
 
 
 def _plan(entry):

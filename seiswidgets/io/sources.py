@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from seiswidgets.errors import DataError, SettingError
+from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
 from seiswidgets.geology import synthetic
 from seiswidgets.geology.history import Survey
 from seiswidgets.geology.section import Section
@@ -132,9 +132,9 @@ def _called(function, choices, *arguments):
     try:
         inspect.signature(function).bind(*arguments, **choices)
         return function(*arguments, **choices)
+    except SeiswidgetsError:
+        raise
     except (TypeError, ValueError) as error:
-        if isinstance(error, SettingError):
-            raise
         raise DataError(f"the section cannot be made with {dict(choices)}: {error}; correct its source") from error
 
 
@@ -161,9 +161,9 @@ def _open_file(path, **choices):
         with np.load(path, allow_pickle=False) as arrays:
             amplitude = arrays["amplitude"]
             return Section(amplitude, **{name: arrays[name].item() for name in arrays.files if name != "amplitude"})
+    except SeiswidgetsError:
+        raise
     except (OSError, KeyError, TypeError, ValueError, zipfile.BadZipFile) as error:
-        if isinstance(error, DataError):
-            raise
         raise DataError(f"{path} cannot be opened as a section: {error}") from error
 
 

@@ -1,6 +1,8 @@
 import json
 import os
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -110,6 +112,24 @@ def test_lines_that_cannot_be_used_are_kept_and_told_of(session, tmp_path):
         "fault 'F2' crosses itself near x=10, z=1",
         "piece 3 of horizon 'H1' crosses itself n",
     ]
+
+
+def test_what_could_not_be_opened_again_is_not_made(session, tmp_path):
+    with pytest.raises(PickError, match="two picks are called 'H1'"):
+        replace(session, horizons=session.horizons[:1] * 2)
+    with pytest.raises(PickError, match="holds half a character"):
+        SavedPick("\ud800", (CROSSED,))
+    with pytest.raises(SettingError, match="the colour of 'F' must be #rrggbb or the name of one, but is 'url"):
+        SavedPick("F", (CROSSED,), colour="url(x)")
+    with pytest.raises(DataError, match=r"session.json cannot hold this session: .*; correct its numbers"):
+        replace(session, plan=sw.Plan(spacing=float("nan"))).save(tmp_path / "session.json")
+    assert not list(tmp_path.iterdir())
+
+
+def test_numbers_of_numpy_are_kept(session, tmp_path):
+    plan = sw.Plan(weights=sw.Weights(edge=np.float32(0.1)), spacing=np.float64(60))
+    replace(session, plan=plan).save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json").plan == plan
 
 
 def test_a_fault_is_one_line(session):
@@ -289,6 +309,21 @@ def test_newer_versions_say_so(saved, version):
         sw.open_session(path)
 
 
+def test_the_examples_in_the_docs_open(tmp_path, case):
+    text = (Path(__file__).parents[2] / "docs" / "formats.md").read_text()
+    picks, document = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
+    (tmp_path / "picks.json").write_text(picks)
+    section = replace(case.section, z_unit="ms", velocity=2000.0)
+    assert len(sw.read_picks(tmp_path / "picks.json", section).horizons[0].pieces) == 2
+    (tmp_path / "session.json").write_text(document.replace("64 hexadecimal digits", 64 * "0"))
+    session = sw.open_session(tmp_path / "session.json")
+    assert session.source == sw.SectionSource("file", str(tmp_path / "data" / "line.npz"))
+    assert session.plan == sw.Plan((sw.Step("unfault"),))
+    session.save(tmp_path / "again.json")
+    again, shown = (json.loads((tmp_path / name).read_text()) for name in ("again.json", "session.json"))
+    assert again == {**shown, "written_by": f"seiswidgets {sw.__version__}"}
+
+
 # --- damage
 
 
@@ -316,7 +351,10 @@ def test_newer_versions_say_so(saved, version):
             lambda d: d["picks"]["faults"].append(d["picks"]["faults"][0]),
             r"faults\[1\].name must be a name that no other",
         ),
-        (lambda d: d["picks"]["faults"][0].update(colour="red;x:url(y)"), r"faults\[0\].colour must be #rrggbb or"),
+        (
+            lambda d: d["picks"]["faults"][0].update(colour="red;x:url(y)"),
+            r"faults\[0\]: the colour of 'F1' must be #rrggbb",
+        ),
         (lambda d: d["picks"]["faults"][0].update(visible=1), r"faults\[0\].visible must be true or false, but is 1"),
         (lambda d: d["picks"].update(fixed=[1, 2, 3]), "picks.fixed must be a point .* but is a list of 3"),
         (
