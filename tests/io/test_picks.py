@@ -399,6 +399,24 @@ def test_a_long_line_that_crosses_itself_is_refused_at_once(tmp_path):
     assert time.process_time() - begun < 2
 
 
+@pytest.mark.parametrize(
+    ("kind", "text"),
+    [
+        ("csv", f"kind{' ' * 300_000}x,name,piece,x,z\n"),
+        ("csv", f"{'kind' * 100_000} (,name,piece,x,z\n"),
+        ("opendtect-horizons", '"' * 1_000_001),
+        ("opendtect-horizons", f"# {'Z (m' * 100_000}\n1 2 3\n"),
+        ("charisma-horizons", f"INLINE {':' * 300_000}\n"),
+    ],
+)
+def test_endless_rows_are_refused_at_once(tmp_path, kind, text):
+    path = written(tmp_path, "a.txt", text)
+    begun = time.process_time()
+    with pytest.raises(DataError, match=r"a.txt: row \d"):
+        sw.read_picks(path, DEPTH, format=kind, along="x")
+    assert time.process_time() - begun < 2
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_file_that_cannot_be_replaced_stays_as_it_was(tmp_path, name, monkeypatch):
     sw.write_picks(SIMPLE, tmp_path / name, DEPTH)

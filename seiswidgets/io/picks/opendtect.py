@@ -48,11 +48,11 @@ def _horizon_node(path, place, row, horizon_alone):
 
 def _names(row):
     """The names in quotes that a row begins with, and the rest of it."""
-    names = []
-    while match := QUOTED.match(row):
+    names, end = [], 0
+    while match := QUOTED.match(row, end):
         names.append(match[1])
-        row = row[match.end() :]
-    return names, row
+        end = match.end()
+    return names, row[end:]
 
 
 def read_faults(path: Path, choices: Choices) -> Found:
