@@ -18,7 +18,7 @@ def heave_of(throw: float, dip: float) -> Number:
             (throw * tan(angle), "The other way round: the steeper a fault, the smaller its heave."),
             (throw * cos(angle), "This takes the throw for the slip. The throw is the vertical leg of the triangle."),
             (throw / sin(angle), "That is the slip, measured along the fault. The heave is its horizontal part."),
-            (throw, "That were so at a dip of 45°."),
+            (throw, "It would be, at a dip of 45°."),
         ),
         "Draw the triangle: the throw upright, the heave level, the slip along the fault.",
     )
@@ -70,8 +70,8 @@ def half_the_slip(half_length: float) -> Number:
         5.0,
         "An ellipse stays high and falls steeply at its ends: most of the fault slips by more than half of that.",
         (
-            (half_length / 2, "So it were if the slip fell in a straight line from the centre to the tip."),
-            (half_length * sqrt(0.5), "So it were for a parabola. An ellipse is fuller."),
+            (half_length / 2, "That would be right if the slip fell in a straight line from the centre to the tip."),
+            (half_length * sqrt(0.5), "That would be a parabola. An ellipse is fuller."),
             (half_length * (1 - sqrt(0.75)), "Measured from the tip, yes. How far is it from the centre?"),
         ),
         "Solve (t / a)² + (slip / largest)² = 1 for t, a being half of the length.",
@@ -90,7 +90,7 @@ def graben_widened(throw: float, dip: float) -> Number:
         "Each fault has opened the section by its heave. That sum is the extension of the whole.",
         (
             (heave, "That closes one fault. The middle block moves too, and takes the other fault along."),
-            (0.0, "Were it to stay, the middle block would have to fill a gap that is wider than itself."),
+            (0.0, "If it stayed, the middle block would have to fill a gap that is wider than itself."),
             (2 * throw, "Those are the throws: the vertical parts. Sideways it is the heaves that count."),
         ),
         "First close the left fault with everything to its right, then the right one.",

@@ -15,7 +15,10 @@ def longer_than_wide(along: float, across: float, dip: float) -> Number:
         0.5,
         "So much wider was the bed before it was folded, if it kept its length.",
         (
-            (100 * (steepest - 1), f"So it were if it dipped at {dip:.0f}° everywhere. That is its steepest limb."),
+            (
+                100 * (steepest - 1),
+                f"That would be a bed that dips at {dip:.0f}° everywhere. That is its steepest limb.",
+            ),
             (100 * (1 - 1 / steepest), f"That takes {dip:.0f}° for the dip everywhere, and the length for the whole."),
             (0.0, "A line that goes up and down between two places is longer than a level one."),
         ),

@@ -6,7 +6,7 @@ from ipywidgets import HTML, Button, Layout, RadioButtons, Text, VBox
 
 from exercises.question import Choice, Feedback, Number
 
-RIGHT, NOT_YET = "#00695c", "#a33b00"  # dark enough on white to be read; told apart by the colour-blind too
+RIGHT, NOT_YET = "#009e73", "#d55e00"  # of a border only: told apart by the colour-blind, seen on light and dark
 
 
 def ask(question: Number | Choice) -> VBox:
@@ -27,8 +27,6 @@ def _shown(feedback: Feedback | None) -> str:
     """HTML of some feedback, in a place that a screen reader reads out when it changes."""
     if feedback is None:
         return '<p role="status"></p>'
-    colour = RIGHT if feedback.right else NOT_YET
-    return (
-        f'<p role="status" style="border-left: 4px solid {colour}; padding-left: 8px; line-height: 1.4">'
-        f'<b style="color: {colour}">{"Right" if feedback.right else "Not yet"}.</b> {escape(feedback.text)}</p>'
-    )
+    verdict, colour = ("Right.", RIGHT) if feedback.right else ("Not yet.", NOT_YET)
+    look = f"border-left: 4px solid {colour}; padding-left: 8px; line-height: 1.4"
+    return f'<p role="status" style="{look}"><b>{verdict}</b> {escape(feedback.text)}</p>'

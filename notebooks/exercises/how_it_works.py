@@ -58,7 +58,7 @@ def finer_mesh(iterations: dict[int, int]) -> Number:
         "Slip spreads like heat: twice the vertices, four times the iterations. Gauss-Newton takes the same few.",
         (
             (1.0, "A fixed number of vertices takes part in each iteration, however fine the mesh."),
-            (2.0, "So it were if the slip ran along the fault at a steady speed. It spreads like heat does."),
+            (2.0, "That would be right if the slip ran along the fault at a steady speed. It spreads like heat does."),
             (8.0, "Too slow even for heat in a bar. The time goes with the square of the length."),
         ),
         "Print the second number, or think of how the time that heat takes goes with the length of the bar.",

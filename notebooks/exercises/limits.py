@@ -82,7 +82,7 @@ def dip_in_time(dip: float, velocity: float, assumed: float) -> Number:
         1.0,
         "Too gentle below and too steep above: a straight fault seems to be listric.",
         (
-            (dip, "So it were if you had taken the velocity of that depth."),
+            (dip, "That would be right if you had taken the velocity of that depth."),
             (degrees(atan(slope * velocity / assumed)), "The other way round: faster rock has less time to the metre."),
             (dip * assumed / velocity, "It is the slope, the tangent, that is multiplied, not the angle."),
         ),

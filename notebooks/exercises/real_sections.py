@@ -15,9 +15,9 @@ def dip_on_the_screen(dip: float, exaggeration: float) -> Number:
         1.5,
         "The slope grows as the picture is stretched, not the angle. So all faults look steep, and nearly alike.",
         (
-            (dip, "That were so in true proportions."),
+            (dip, "It would be so in true proportions."),
             (exaggeration * dip, "No fault is steeper than 90°: it is the slope, the tangent, that is multiplied."),
-            (degrees(atan(slope / exaggeration)), "So it were in a picture that is pressed flat."),
+            (degrees(atan(slope / exaggeration)), "So it would look in a picture that is pressed flat."),
         ),
         "Multiply the tangent of the dip, and turn it into an angle again.",
     )

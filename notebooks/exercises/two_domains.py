@@ -13,7 +13,7 @@ def channel_today(restored: float, today: float, heave: float, throw: float) -> 
         15.0,
         "The fault has pulled its halves apart by about the heave.",
         (
-            (restored, "So it were without the fault. Did its two halves stay side by side?"),
+            (restored, "That would be right without the fault. Did its two halves stay side by side?"),
             (restored - heave, "A normal fault lengthens the section. Beds that it cut are apart, not on each other."),
             (restored + throw, "You added the throw, which is vertical."),
         ),
