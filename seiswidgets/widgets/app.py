@@ -1,15 +1,11 @@
 """The restoration app: draw, restore, look."""
 
 import logging
-from base64 import b64encode
-from io import BytesIO
 
 import numpy as np
 from ipywidgets import GridBox, Layout, Tab, VBox
-from matplotlib.figure import Figure
 from traitlets import Any, Bool, Instance, Tuple, link, observe, validate
 
-from seiswidgets import plot
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan, Task
@@ -277,14 +273,4 @@ class RestorationApp(VBox):
     def _repr_mimebundle_(self, **kwargs):
         """Beside the app itself a picture of what it shows, for readers without a kernel."""
         bundle = super()._repr_mimebundle_(**kwargs)
-        return bundle and {**bundle, "image/png": self._picture()}
-
-    def _picture(self):
-        """A PNG of both sections with their picks, in base 64."""
-        sections = [plot.section] + [plot.restoration] * bool(self.restoration.stages)
-        figure = Figure(figsize=(7 * len(sections), 4.2), layout="constrained")
-        for draw, ax in zip(sections, figure.subplots(1, len(sections), squeeze=False)[0], strict=True):
-            draw(self.section if draw is plot.section else self.restoration, self.interpretation, ax)
-        file = BytesIO()
-        figure.savefig(file, format="png", dpi=80)
-        return b64encode(file.getvalue()).decode()
+        return bundle and {**bundle, "image/png": self.panes.still()}

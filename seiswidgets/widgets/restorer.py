@@ -12,7 +12,7 @@ from seiswidgets.widgets.canvas import LOCK
 from seiswidgets.widgets.frame import Frame
 from seiswidgets.widgets.worker import Worker
 
-BUDGET = 0.25  # seconds that a quick look may take; where it would take longer, there is none
+BUDGET = 0.6  # seconds that a quick look may take; where it would take longer, there is none
 REST = 0.3  # seconds without a change until the full restoration begins
 BETWEEN = 0.08  # seconds between two messages of progress
 
