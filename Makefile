@@ -49,7 +49,7 @@ binder: $(VENV)/.test  ## pin what Binder installs (BINDER_ARGS=--upgrade takes 
 		--output-file binder/requirements.txt pyproject.toml
 
 binder-check: $(VENV)/.test $(BINDER)/.ready  ## install what binder/ lists, alone, and open notebooks in it
-	BINDER=$(abspath $(BINDER)) $(BIN)/pytest -s tests/widgets/binder_check.py
+	SEISWIDGETS_BINDER=$(abspath $(BINDER)) $(BIN)/pytest -s tests/widgets/binder_check.py
 
 $(VENV)/.lab: pyproject.toml | $(BIN)/pip
 	@echo "installing what the lab needs"
