@@ -16,7 +16,7 @@ from seiswidgets.geology.weights import Weights
 
 UNFAULT, FLATTEN = "unfault", "flatten"
 OTHER_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch")}  # that a step has no use for
-COARSE = 2.0  # times the mesh spacing, for a first look: a quarter of the vertices
+COARSE, QUICK = 2.0, 2  # times the mesh spacing, and iterations, of a quick look
 
 
 @dataclass(frozen=True)
@@ -65,6 +65,8 @@ class Plan:
     solver : {"gauss-newton", "fixed-point"}
     spacing : float, optional
         Of the mesh, in metres of rock.
+    max_iterations : int, optional
+        Of each step.
 
     Examples
     --------
@@ -79,6 +81,7 @@ class Plan:
     weights: Weights = field(default_factory=Weights)
     solver: str = GAUSS_NEWTON
     spacing: float | None = None
+    max_iterations: int | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "steps", tuple(self.steps))
@@ -125,9 +128,9 @@ class Task:
 
     @property
     def coarse(self) -> "Task":
-        """The same on a coarser mesh, for a quick look."""
-        spacing = Restoration(self.section, self.plan.spacing).ground.spacing
-        return replace(self, plan=replace(self.plan, spacing=COARSE * spacing))
+        """The same on a coarser mesh and in few iterations, for a quick look from an earlier one."""
+        spacing = COARSE * Restoration(self.section, self.plan.spacing).ground.spacing
+        return replace(self, plan=replace(self.plan, spacing=spacing, max_iterations=QUICK))
 
     def restored(
         self,
@@ -149,6 +152,7 @@ class Task:
 
     def _made(self, restoration, step, start, progress):
         choices = {"weights": self.plan.weights, "solver": self.plan.solver, "progress": progress, "start": start}
+        choices["max_iterations"] = self.plan.max_iterations
         if step.kind == UNFAULT:
             faults, horizons = self._faults(step), self.interpretation.horizons
             return restoration.unfault(faults, horizons, fixed=self.fixed, **choices)
@@ -182,7 +186,16 @@ class Task:
             ]
             fixed = self.fixed if step.kind == UNFAULT else None
             lines = [(pick.name, *_lines(pick)) for pick in picks]
-            yield step.kind, step.datum, fixed, lines, weights, self.plan.solver, self.plan.spacing
+            yield (
+                step.kind,
+                step.datum,
+                fixed,
+                lines,
+                weights,
+                self.plan.solver,
+                self.plan.spacing,
+                self.plan.max_iterations,
+            )
 
 
 def _lines(pick):

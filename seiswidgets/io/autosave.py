@@ -1,6 +1,7 @@
 """Sessions that save themselves: in a thread, a moment behind, the last few versions kept."""
 
 import atexit
+import contextlib
 import logging
 import os
 import re
@@ -140,13 +141,14 @@ class Autosave:
             older = numbered(self.path)
             number = max(older, default=0) + 1
             session.save(self.path.with_name(f"{self.path.stem}.{number:06d}{self.path.suffix}"))
-            for old in sorted(older)[: max(0, len(older) + 1 - self.keep)]:
-                older[old].unlink(missing_ok=True)
         except DataError as error:
             return error
         except Exception as error:  # noqa: BLE001 - a thread that ends in silence would lose all later work
             return DataError(f"{self.path} cannot be saved: {error}")
         self._saved = session
+        for old in sorted(older)[: max(0, len(older) + 1 - self.keep)]:
+            with contextlib.suppress(OSError):  # an old version that stays does no harm
+                older[old].unlink()
         return None
 
 

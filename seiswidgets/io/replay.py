@@ -55,7 +55,7 @@ def replayed(
     restored = session.restore(counted, allow_changed=allow_changed)
     contents = {  # endings that keep them from replacing the session or its section in the same folder
         "-restored.npz": npz(restored.section),
-        "-report.txt": _text(path, session, restored).encode(),
+        "-report.txt": _text(path, session, restored).encode(errors="backslashreplace"),
         "-report.json": _json(path, session, restored).encode(),
     }
     files = tuple(folder / f"{name}{ending}" for ending in contents)

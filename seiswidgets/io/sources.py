@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from seiswidgets.errors import DataError, SettingError
+from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
 from seiswidgets.geology import synthetic
 from seiswidgets.geology.history import Survey
 from seiswidgets.geology.section import Section
@@ -48,7 +48,7 @@ class SectionSource:
     name : str
         The path of the file, the function of `synthetic`, or that of `datasets`.
     choices : dict, optional
-        Keywords it is opened or made with: numbers, texts, True, False, None, and lists of these.
+        Keywords it is opened or made with: numbers, texts, True, False, None, slices, ranges, lists and dicts.
 
     Raises
     ------
@@ -70,7 +70,7 @@ class SectionSource:
                 f"the {self.kind} section must be one of {', '.join(NAMES[self.kind])}, but is {self.name[:60]!r}"
             )
         choices = {name: _plain(name, value) for name, value in self.choices.items()}
-        object.__setattr__(self, "name", str(self.name))
+        object.__setattr__(self, "name", os.path.abspath(self.name) if self.kind == FILE else self.name)
         object.__setattr__(self, "choices", MappingProxyType(choices))
 
     def open(self) -> Section:
@@ -104,23 +104,37 @@ def _plain(name, value):
     """A choice as JSON can hold it."""
     if isinstance(value, np.generic):
         value = value.item()
+    if isinstance(value, slice | range):
+        return {type(value).__name__: [_plain(name, part) for part in (value.start, value.stop, value.step)]}
     if isinstance(value, list | tuple):
         return [_plain(name, part) for part in value]
+    if isinstance(value, Mapping):
+        return {str(key): _plain(name, part) for key, part in value.items()}
     if value is None or isinstance(value, bool | int | str) or (isinstance(value, float) and np.isfinite(value)):
         return value
     raise SettingError(
-        f"{name} must be a finite number, a text, True, False, None or a list of these to be kept in a session, but is "
-        f"{value!r}"
+        f"{name} must be a finite number, a text, True, False, None, a slice, a range, or a list or dict of these, to "
+        f"be kept in a session, but is {value!r}"
     )
+
+
+def _revived(value):
+    """A slice or a range from how JSON holds it; other values as they are."""
+    for kind in (slice, range):
+        if isinstance(value, dict) and list(value) == [kind.__name__] and isinstance(value[kind.__name__], list):
+            parts = value[kind.__name__]
+            if len(parts) == 3 and all(part is None or type(part) is int for part in parts):
+                return kind(*parts)
+    return value
 
 
 def _called(function, choices, *arguments):
     try:
         inspect.signature(function).bind(*arguments, **choices)
         return function(*arguments, **choices)
+    except SeiswidgetsError:
+        raise
     except (TypeError, ValueError) as error:
-        if isinstance(error, SettingError):
-            raise
         raise DataError(f"the section cannot be made with {dict(choices)}: {error}; correct its source") from error
 
 
@@ -136,6 +150,7 @@ def _synthetic(function, **choices):
 
 def _open_file(path, **choices):
     """The one place where a session opens a file. Until files of all kinds can be opened: our own .npz."""
+    choices = {name: _revived(value) for name, value in choices.items()}
     if choices or path.suffix.lower() != ".npz":
         raise DataError(f"{path} cannot be opened; a section must be in a .npz file, and takes no choices")
     try:
@@ -146,9 +161,9 @@ def _open_file(path, **choices):
         with np.load(path, allow_pickle=False) as arrays:
             amplitude = arrays["amplitude"]
             return Section(amplitude, **{name: arrays[name].item() for name in arrays.files if name != "amplitude"})
+    except SeiswidgetsError:
+        raise
     except (OSError, KeyError, TypeError, ValueError, zipfile.BadZipFile) as error:
-        if isinstance(error, DataError):
-            raise
         raise DataError(f"{path} cannot be opened as a section: {error}") from error
 
 

@@ -217,7 +217,7 @@ class RestorationApp(VBox):
         else:
             self._show_whole(frame, restoration)
         self.picker.complain({})
-        self.picker.refresh()
+        self.picker.redraw()
         self.status.hint("")
         self._set_outdated(False)
         ratio = frame.ratio_before.ratio.ravel() if frame.restoration.stages else []
@@ -270,7 +270,7 @@ class RestorationApp(VBox):
             self.panes.show(self._whole)
         else:
             self.panes.show(Frame.of(restoration.at(time), moving=True))
-        self.picker.refresh()
+        self.picker.redraw()
 
     def _mark(self, reading):
         ratio = reading.ratio if reading else np.nan

@@ -104,18 +104,27 @@ class Picker(VBox):
         self.list.update(self._wrong())
 
     def refresh(self) -> None:
-        """Show what the pen holds, everywhere."""
+        """Show what the pen holds, everywhere: first on the section of today, at last where the restoration matters."""
         with LOCK:
-            cutoffs = self.pen.cutoffs()
-            for pane, sight in self._panes:
-                seen = sight()
-                pane.draw_lines(strokes(self.pen, seen))
-                pane.draw_marks(marks(self.pen, seen, cutoffs))
-                pane.rubber = rubber(self.pen, seen)
+            self._draw(self._panes[:1])
             self.list.update(self._wrong())
             self._undo.disabled, self._redo.disabled = not self.pen.can_undo, not self.pen.can_redo
             self._finish.disabled = self.pen.drawing.under_way is None
             self._tell()
+            self._draw(self._panes[1:])
+
+    def redraw(self) -> None:
+        """Draw the lines anew in the panes that show the section in a way of their own, as that has changed."""
+        if not self._quiet:  # else they are drawn in a moment anyway
+            self._draw(self._panes[1:])
+
+    def _draw(self, panes):
+        cutoffs = self.pen.cutoffs() if panes else ()
+        for pane, sight in panes:
+            seen = sight()
+            pane.draw_lines(strokes(self.pen, seen))
+            pane.draw_marks(marks(self.pen, seen, cutoffs))
+            pane.rubber = rubber(self.pen, seen)
 
     def _tell(self):
         """Let the traits follow the pen."""

@@ -1,6 +1,8 @@
 import json
 import os
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.errors import DataError, PickError, SettingError
 from seiswidgets.io.savedpicks import SavedPick
-from seiswidgets.io.sources import npz, section_sha256
+from seiswidgets.io.sources import _revived, npz, section_sha256
 from tests.sections import real_section
 
 SYNTHETIC = sw.SectionSource("synthetic", "faulted_fold", {"throw": 120.0, "horizons": [700.0, 1000.0], "seed": 3})
@@ -112,6 +114,24 @@ def test_lines_that_cannot_be_used_are_kept_and_told_of(session, tmp_path):
     ]
 
 
+def test_what_could_not_be_opened_again_is_not_made(session, tmp_path):
+    with pytest.raises(PickError, match="two picks are called 'H1'"):
+        replace(session, horizons=session.horizons[:1] * 2)
+    with pytest.raises(PickError, match="holds half a character"):
+        SavedPick("\ud800", (CROSSED,))
+    with pytest.raises(SettingError, match="the colour of 'F' must be #rrggbb or the name of one, but is 'url"):
+        SavedPick("F", (CROSSED,), colour="url(x)")
+    with pytest.raises(DataError, match=r"session.json cannot hold this session: .*; correct its numbers"):
+        replace(session, plan=sw.Plan(spacing=float("nan"))).save(tmp_path / "session.json")
+    assert not list(tmp_path.iterdir())
+
+
+def test_numbers_of_numpy_are_kept(session, tmp_path):
+    plan = sw.Plan(weights=sw.Weights(edge=np.float32(0.1)), spacing=np.float64(60))
+    replace(session, plan=plan).save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json").plan == plan
+
+
 def test_a_fault_is_one_line(session):
     with pytest.raises(PickError, match="fault 'F' must be one line, but has 2"):
         replace(session, faults=(SavedPick("F", (CROSSED, CROSSED)),))
@@ -208,7 +228,7 @@ def test_nothing_is_unpickled(saved, tmp_path):
             "the synthetic section must be one of planar_fault, .* '__import__'",
         ),
         ("dataset", "located", {}, SettingError, "the dataset section must be one of f3, teapot"),
-        ("synthetic", "tilt", {"dip": {}}, SettingError, r"dip must be a finite number, .* but is \{\}"),
+        ("synthetic", "tilt", {"dip": 1j}, SettingError, r"dip must be a finite number, .* but is 1j"),
         ("synthetic", "tilt", {"dip": float("nan")}, SettingError, "dip must be a finite number"),
         ("synthetic", "tilt", {"dip": "steep"}, DataError, "the section cannot be made with {'dip': 'steep'}"),
         (
@@ -228,11 +248,21 @@ def test_nothing_is_unpickled(saved, tmp_path):
         ),
         ("dataset", "f3", {"speed": 3}, DataError, "the section cannot be made with {'speed': 3}"),
         ("file", "line.sgy", {}, DataError, "line.sgy cannot be opened"),
+        ("file", "line.npz", {"traces": {"range": [1, 9, 0]}}, DataError, "the section cannot be made with .*'traces'"),
     ],
 )
 def test_sources_that_make_no_section(kind, name, choices, error, match):
     with pytest.raises(error, match=match):
         sw.SectionSource(kind, name, choices).open()
+
+
+def test_slices_and_ranges_are_kept(session, tmp_path):
+    choices = {"traces": slice(3, None), "lines": range(1, 9, 2), "header_bytes": {"inline": 189}, "extent": (0, 1.5)}
+    source = sw.SectionSource("file", str(tmp_path / "line.sgy"), choices)
+    replace(session, source=source).save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json").source == source
+    kept = {name: _revived(value) for name, value in source.choices.items()}
+    assert kept == {**choices, "extent": [0, 1.5]}
 
 
 # --- versions
@@ -279,6 +309,21 @@ def test_newer_versions_say_so(saved, version):
         sw.open_session(path)
 
 
+def test_the_examples_in_the_docs_open(tmp_path, case):
+    text = (Path(__file__).parents[2] / "docs" / "formats.md").read_text()
+    picks, document = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
+    (tmp_path / "picks.json").write_text(picks)
+    section = replace(case.section, z_unit="ms", velocity=2000.0)
+    assert len(sw.read_picks(tmp_path / "picks.json", section).horizons[0].pieces) == 2
+    (tmp_path / "session.json").write_text(document.replace("64 hexadecimal digits", 64 * "0"))
+    session = sw.open_session(tmp_path / "session.json")
+    assert session.source == sw.SectionSource("file", str(tmp_path / "data" / "line.npz"))
+    assert session.plan == sw.Plan((sw.Step("unfault"),))
+    session.save(tmp_path / "again.json")
+    again, shown = (json.loads((tmp_path / name).read_text()) for name in ("again.json", "session.json"))
+    assert again == {**shown, "written_by": f"seiswidgets {sw.__version__}"}
+
+
 # --- damage
 
 
@@ -292,7 +337,7 @@ def test_newer_versions_say_so(saved, version):
         (lambda d: d["section"].pop("source"), "section lacks 'source'"),
         (lambda d: d["section"]["source"].update(kind="web"), "section.source: a section's source must be"),
         (lambda d: d["section"]["source"].update(name="exec"), "section.source: the synthetic section must be one of"),
-        (lambda d: d["section"]["source"].update(arguments={"dip": {}}), "arguments.dip must be a number"),
+        (lambda d: d["section"]["source"].update(arguments={"dip": [[[[[1]]]]]}), "must be nested no more than 4 deep"),
         (lambda d: d["section"].update(sha256="abc"), "section.sha256 must be a SHA-256"),
         (lambda d: d["picks"].update(faults={}), r"picks.faults must be a list \[...\], but is an object of 0"),
         (lambda d: d["picks"]["faults"][0]["points"].insert(5, [1]), r"picks.faults\[0\].points\[5\] must be a point"),
@@ -306,7 +351,10 @@ def test_newer_versions_say_so(saved, version):
             lambda d: d["picks"]["faults"].append(d["picks"]["faults"][0]),
             r"faults\[1\].name must be a name that no other",
         ),
-        (lambda d: d["picks"]["faults"][0].update(colour="red;x:url(y)"), r"faults\[0\].colour must be #rrggbb or"),
+        (
+            lambda d: d["picks"]["faults"][0].update(colour="red;x:url(y)"),
+            r"faults\[0\]: the colour of 'F1' must be #rrggbb",
+        ),
         (lambda d: d["picks"]["faults"][0].update(visible=1), r"faults\[0\].visible must be true or false, but is 1"),
         (lambda d: d["picks"].update(fixed=[1, 2, 3]), "picks.fixed must be a point .* but is a list of 3"),
         (
