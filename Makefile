@@ -40,8 +40,8 @@ bench: $(VENV)/.bench  ## measure, beside other libraries
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
 
 docs: $(VENV)/.docs  ## make the pages of the documentation in docs/_build
-	$(BIN)/sphinx-build -W --keep-going -q docs docs/_build
-	@echo "open docs/_build/index.html"
+	$(BIN)/sphinx-build -W --keep-going -q -c docs $(DOCS_ARGS) . docs/_build/html
+	@echo "open docs/_build/html/docs/index.html"
 
 binder: $(VENV)/.test  ## pin what Binder installs (BINDER_ARGS=--upgrade takes the newest)
 	$(BIN)/uv pip compile --quiet --extra binder --python-version 3.11 --python-platform linux \
