@@ -53,6 +53,8 @@ def test_links_lead_somewhere(page):
     for link in links(page):
         if "://" in link:
             assert re.fullmatch(r"https://[\w.-]+\.[a-z]{2,}(/[^\s]*)?", link), f"{link} is no address"
+            for opened in re.findall(r"urlpath=(?:lab/tree|voila/render)/(.*)", link):
+                assert (ROOT / opened).exists(), f"{link}: there is no {opened}"
             continue
         path, _, anchor = link.partition("#")
         target = page if not path else page.parent / path

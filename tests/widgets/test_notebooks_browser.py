@@ -1,5 +1,7 @@
 """Notebook 01 in JupyterLab: its cells run, its app is painted, and a section is restored by mouse."""
 
+import shutil
+
 import nbformat
 
 from tests.widgets.browser import ROOT
@@ -25,7 +27,8 @@ def has_run(opened):
     assert not [output for output in outputs if output.get("name") == "stderr"]
 
 
-def test_all_cells_run_and_a_section_is_restored_by_mouse(notebook):
+def test_all_cells_run_and_a_section_is_restored_by_mouse(notebook, lab):
+    shutil.copytree(NOTEBOOK.parent / "exercises", lab.folder / "exercises", dirs_exist_ok=True)
     opened = notebook(*code_of(NOTEBOOK), height=1000)
     has_run(opened)
     is_painted(opened.page)
