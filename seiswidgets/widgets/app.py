@@ -94,14 +94,12 @@ class RestorationApp(VBox):
         **settings,
     ):
         settings = {"steps": Plan().steps, "restoration": Restoration(section), **settings}
+        picks = {"interpretation": interpretation or Interpretation(), "fixed": fixed}
         self._ready = self._pressed = False
-        self._make_parts(section, height)
+        self._make_parts(section, picks, height)
         self._restorer, self._moments = Restorer(self._draw, self.status.tell, self._fail), Worker()
-        super().__init__(self._placed(), **settings)
+        super().__init__(self._placed(), **picks, **settings)
         self._tie_parts()
-        if interpretation is not None:
-            self.interpretation = interpretation
-        self.fixed = fixed
         self._ready = True
         self._restore_soon()
 
@@ -136,9 +134,9 @@ class RestorationApp(VBox):
         self._moments.cancel()
         super().close()
 
-    def _make_parts(self, section, height):
+    def _make_parts(self, section, picks, height):
         self.panes = LinkedPanes(section, height=height, deformation=0.5)
-        self.picker = Picker(self.panes.original)
+        self.picker = Picker(self.panes.original, **picks)
         self.picker.attach(self.panes.restored, self.panes.sight)
         self.histogram = DeformationHistogram()
         self.sliders = WeightSliders()

@@ -161,6 +161,11 @@ class Pen:
         """Whether there is an edit to make again."""
         return bool(self._future)
 
+    def forget(self) -> None:
+        """Let what has been done so far be the beginning, which cannot be undone."""
+        self._past.clear()
+        self._future.clear()
+
     def add(self, point: Point, *, free: bool = False, select: bool = True) -> None:
         """Add a vertex to the line under way, or begin one; ``free`` of snapping and following."""
         mode, line = self.state.mode, self.drawing.under_way

@@ -90,6 +90,8 @@ class Picker(VBox):
         self.attach(self.pane, lambda: Sight(self.pane.view))
         for name, value in settings.items():
             setattr(self, name, value)
+        self.pen.forget()
+        self.refresh()
 
     def attach(self, pane: SectionPane, sight: Callable[[], Sight]) -> None:
         """Draw in a further pane too, which shows the section in a way of its own."""
