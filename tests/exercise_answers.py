@@ -5,6 +5,25 @@ read off its figures, and typed as a student would.
 """
 
 ANSWERS = {
+    "01_restore_a_section": [
+        ("173 m", {"150": "vertical part", "86": "horizontal part", "237": "third side"}),
+        (
+            "it turned about the centre of the arc",
+            {
+                "it was shifted along the mean dip": "rock on rock",
+                "it dropped": "no heave",
+                "it was sheared along the beds": "changes the angles",
+            },
+        ),
+        (
+            "the top of the section",
+            {
+                "the base of the section": "pulled apart",
+                "all of it alike": "The median",
+                "the rock along the fault": "nearly nothing",
+            },
+        ),
+    ],
     "02_how_it_works": [
         ("edge length", {"mean value": "know no size", "contour": "border", "bed length": "look at the rock"}),
         (

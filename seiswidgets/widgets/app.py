@@ -16,6 +16,7 @@ from seiswidgets.widgets.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.frame import Frame
 from seiswidgets.widgets.histogram import DeformationHistogram
 from seiswidgets.widgets.linkedpanes import LinkedPanes
+from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.picker import Picker
 from seiswidgets.widgets.reports import Reports
 from seiswidgets.widgets.restorer import REST, Restorer
@@ -151,7 +152,7 @@ class RestorationApp(VBox):
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
-        return [self.picker.toolbar, self.status, self.panes, below]
+        return [self.picker.toolbar, self.status, self.panes, below, Names()]
 
     def _tie_parts(self):
         for name in ("interpretation", "fixed"):
