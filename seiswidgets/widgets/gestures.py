@@ -46,11 +46,12 @@ class Move:
 
 @dataclass(frozen=True)
 class Release:
-    """A button goes up; see `Press`."""
+    """A button goes up; see `Press`. If ``cancelled``, the press was none, as when a second finger comes down."""
 
     point: tuple[float, float]
     pixel: tuple[float, float]
     modifiers: frozenset = frozenset()
+    cancelled: bool = False
 
 
 @dataclass(frozen=True)

@@ -41,8 +41,22 @@ def moved(pen, event) -> bool:
     far = np.hypot(*np.subtract(event.pixel, drag.pixel)) >= STILL
     if (far or drag.moves) and np.isfinite(event.point).all():
         drawing = _dragged(pen, drag, event)
-        pen.change(drawing=drawing, selection=drag.spot, drag=replace(drag, moves=True))
+        pen.change(drawing=drawing, selection=drag.spot, drag=replace(drag, last=event.pixel, moves=True))
     return True
+
+
+def released(pen, event) -> bool:
+    """End a drag where the button goes up, which is farther on if moves were too quick; say whether there was one."""
+    drag = pen.state.drag
+    if not event.cancelled:
+        if drag and event.pixel != drag.last:
+            moved(pen, event)
+        pen.settle()
+    elif drag:
+        pen.change(drawing=drag.before, selection=drag.selection, drag=None)
+    elif pen.drawing is not pen.before_press:
+        pen.undo()
+    return drag is not None
 
 
 def double_clicked(pen, event) -> bool:
@@ -136,7 +150,7 @@ def _hold_cutoff(pen, event):
 
 
 def _hold(pen, event, spot, base, fault=None):
-    drag = Drag(spot, pen.drawing, pen.state.selection, base, event.pixel, fault)
+    drag = Drag(spot, pen.drawing, pen.state.selection, base, event.pixel, event.pixel, fault)
     pen.change(drag=drag, selection=spot)
 
 

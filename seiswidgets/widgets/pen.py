@@ -40,7 +40,7 @@ from seiswidgets.widgets.cutoffmarks import CutOff, cut_offs
 from seiswidgets.widgets.drawing import HORIZON, Drawing, Point, Points, Spot
 from seiswidgets.widgets.gestures import DoubleClick, Gesture, Key, Move, Press, Release
 from seiswidgets.widgets.keyboard import key_pressed
-from seiswidgets.widgets.mouse import double_clicked, moved, pressed
+from seiswidgets.widgets.mouse import double_clicked, moved, pressed, released
 from seiswidgets.widgets.penstate import LOOK, MODES, PenState, known
 from seiswidgets.widgets.sight import Sight
 from seiswidgets.widgets.view import View
@@ -71,6 +71,7 @@ class Pen:
         self.view, self.snap, self.follow = view, snap, follow
         self.state = PenState(drawing=drawing or Drawing())
         self._past, self._future = [], []
+        self.before_press = self.drawing
         self.sight = Sight(view)
 
     @classmethod
@@ -116,14 +117,13 @@ class Pen:
                 return moved(self, gesture)
             case Press():
                 self.settle()
+                self.before_press = self.drawing
                 return pressed(self, gesture)
             case DoubleClick():
                 self.settle()
                 return double_clicked(self, gesture)
             case Release():
-                held = self.state.drag is not None
-                self.settle()
-                return held
+                return released(self, gesture)
 
     def enter(self, mode: str) -> None:
         """Change the mode; a line under way is finished, or dropped (undo brings it back) if it is but one point."""

@@ -21,8 +21,8 @@ class Drag:
         As they were, for undo and Escape.
     base : Drawing
         What the vertex is moved in: with the vertex inserted, or the piece cut at its fault.
-    pixel : tuple
-        Where it was taken hold of.
+    pixel, last : tuple
+        Where it was taken hold of, and where the pointer was when it was last told of.
     fault : str or None
         That a cut-off is dragged along.
     moves : bool
@@ -34,6 +34,7 @@ class Drag:
     selection: Spot | None
     base: Drawing
     pixel: tuple[float, float]
+    last: tuple[float, float]
     fault: str | None = None
     moves: bool = False
 

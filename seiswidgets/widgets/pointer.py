@@ -157,7 +157,7 @@ def gesture_of(happening: Happening, view: View) -> Gesture | None:
         case "drag" | "hover":
             return Move(**at)
         case "release":
-            return Release(**at)
+            return Release(**at, cancelled=happening.cancelled)
         case "double":
             return DoubleClick(**at, reach=reach)
         case "key":

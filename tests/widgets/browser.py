@@ -71,9 +71,17 @@ class Server:
             time.sleep(0.2)
         pytest.fail(f"JupyterLab did not start:\n{self.log.read_text()[-3000:]}")
 
-    def address(self, path):
+    def write(self, cells):
+        """Write a notebook of some cells of code into the folder, and give back its name."""
+        name = f"{secrets.token_hex(4)}.ipynb"
+        made = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+        made.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
+        nbformat.write(made, self.folder / name)
+        return name
+
+    def address(self, path, place="lab/tree"):
         """Of a notebook."""
-        return f"http://127.0.0.1:{self.port}/lab/tree/{path}?reset&token={self.token}"
+        return f"http://127.0.0.1:{self.port}/{place}/{path}?reset&token={self.token}"
 
 
 class Notebook:
@@ -91,21 +99,22 @@ class Notebook:
         JupyterLab's dark theme.
     width, height : int
         Of the window, in css pixels.
+    touch : bool
+        Whether the screen takes fingers.
     """
 
-    def __init__(self, lab, chromium, cells, *, ratio=1.0, dark=False, width=1200, height=900):
-        name = f"{secrets.token_hex(4)}.ipynb"
-        made = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
-        made.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
-        nbformat.write(made, lab.folder / name)
+    def __init__(self, lab, chromium, cells, *, ratio=1.0, dark=False, width=1200, height=900, touch=False):
+        name = lab.write(cells)
         self.errors = []
-        self.context = chromium.new_context(viewport={"width": width, "height": height}, device_scale_factor=ratio)
+        size = {"width": width, "height": height}
+        self.context = chromium.new_context(viewport=size, device_scale_factor=ratio, has_touch=touch)
         self.page = self.context.new_page()
         self.page.set_default_timeout(RUN * 1000)
         self.page.on("console", self._note)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.sent = []
+        self.sent, self.dialogs = [], []
         self.page.on("websocket", lambda socket: socket.on("framesent", lambda frame: self.sent.append(frame)))
+        self.page.on("dialog", self._dismiss)
         self.page.goto(lab.address(name))
         self._simplify(dark)
         self.run()
@@ -114,10 +123,18 @@ class Notebook:
         if message.type == "error" and not IGNORED.search(message.text):
             self.errors.append(f"{message.text} ({message.location.get('url')})")
 
+    def _dismiss(self, dialog):
+        self.dialogs.append(dialog.message)
+        dialog.dismiss()
+
     def _simplify(self, dark):
         self.page.locator(".jp-Notebook").wait_for()
         self.page.wait_for_function(READY)
         self.command("application:toggle-left-area")
+        self.darken(dark)
+
+    def darken(self, dark):
+        """Take JupyterLab's dark theme, or its light one."""
         light = str(not dark).lower()
         if self.page.locator("body").get_attribute("data-jp-theme-light") != light:  # as the last test left it
             self.command("apputils:change-theme", {"theme": f"JupyterLab {'Dark' if dark else 'Light'}"})

@@ -6,6 +6,7 @@ import subprocess
 import ipywidgets
 import pytest
 
+from tests.widgets.appscreen import EMPTY, SHOWN, AppScreen
 from tests.widgets.bare import BareLayer
 from tests.widgets.browser import FLAGS, Notebook, Server
 
@@ -64,6 +65,16 @@ def notebook(lab, chromium):
     for one in opened:
         one.close()
     assert [error for one in opened for error in one.errors] == []
+
+
+@pytest.fixture
+def open_app(notebook):
+    """A function that shows an app, made by some code besides that of an empty one, in a notebook's cell."""
+
+    def open_it(*code, more=(), height=1150, **options):
+        return AppScreen(notebook("".join([EMPTY, *code, SHOWN]), *more, height=height, **options))
+
+    return open_it
 
 
 @pytest.fixture

@@ -28,6 +28,7 @@ class Layer {
     const inside = element("svg", "inside", this.plot, { width: "100%", height: "100%" }); // cuts off what sticks out
     this.mesh = element("path", "mesh", inside);
     for (const name of GROUPS) this[name] = element("g", name, inside);
+    this.below = () => el.parentElement?.querySelectorAll(":scope > canvas") ?? [];
     this.note = document.createElement("div");
     this.note.className = "note";
     el.append(this.note);
@@ -95,6 +96,7 @@ class Layer {
   // Tell the kernel the size of the plot area; the first time, that there is a view that knows nothing yet.
   report() {
     if (!this.plane.measure()) return;
+    this.below().forEach((canvas) => (canvas.inert = true)); // ipycanvas would take the focus, and Tab never leave it
     const { width, height } = this.plane;
     this.model.send({ kind: "size", width, height, ratio: window.devicePixelRatio || 1, fresh: !this.isReported });
     this.isReported = true;

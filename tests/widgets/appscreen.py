@@ -1,0 +1,156 @@
+"""A restoration app in a notebook, and a hand that works it by mouse and keyboard."""
+
+import re
+import time
+
+import numpy as np
+import pytest
+
+from tests.widgets.browser import SCREENSHOTS
+
+EMPTY = """
+import numpy as np
+import seiswidgets as sw
+case = sw.synthetic.faulted_fold()
+drawn = case.interpretation
+app = sw.RestorationApp(case.section, height=340)
+pen, panes = app.picker.pen, (app.panes.original, app.panes.restored)
+"""
+FEW = """
+fault = sw.Fault(drawn.faults[0].points[[0, 10, 20, 30]], "F1")
+pieces = [piece[np.linspace(0, len(piece) - 1, 5).astype(int)] for piece in drawn.horizons[0].pieces]
+app.live = False
+app.interpretation = sw.Interpretation([fault], [sw.Horizon(*pieces, name="H1")])
+"""
+RESTORED = "app.interpretation, app.fixed = drawn, case.fixed\n"
+SHOWN = "app\n"
+
+PICKS = "[[pick.name, [[[*at] for at in piece] for piece in pick.pieces]] for pick in pen.drawing.picks]"
+UNDER_WAY = "pen.drawing.under_way.points if pen.drawing.under_way else []"
+PIXELS = """(canvases) => canvases.map((canvas) => {
+  const { width, height } = canvas;
+  const data = canvas.getContext("2d").getImageData(0, 0, width, height).data;
+  let sum = 0;
+  for (let i = 0; i < data.length; i++) sum = (sum * 31 + data[i]) >>> 0;
+  return [width, height, data[4 * Math.floor((0.5 + height / 2) * width) + 3], sum];
+})"""
+
+
+class AppScreen:
+    """What a hand does to the app, and what it sees.
+
+    Parameters
+    ----------
+    opened : Notebook
+        That shows an app by the name of ``app``, made by one of the cells above.
+    """
+
+    def __init__(self, opened):
+        self.opened, self.page, self.ask = opened, opened.page, opened.ask
+        self.plots = self.page.locator(".seiswidgets-layer .plot")
+        self.pictures()
+
+    def until(self, code, seconds=30):
+        """Wait until an expression is true in the kernel."""
+        end = time.monotonic() + seconds
+        while not self.ask(f"bool({code})"):
+            assert time.monotonic() < end, f"never true: {code}"
+            time.sleep(0.05)
+
+    def button(self, name):
+        """Of the toolbar or the status bar, by its text, or what it says of itself."""
+        return self.page.locator(f"button:has-text('{name}'), button[title*='{name}']").first
+
+    def tab(self, name):
+        """Open one of the tabs."""
+        self.page.get_by_role("tab", name=name, exact=True).click()
+
+    def pictures(self, suits=lambda pictures: True):
+        """Size, opacity and sum of the pixels of all panes' canvases, once they have not changed for a while."""
+        self.plots.nth(1).wait_for()
+        last = None
+        for _ in range(100):
+            pictures = self.page.eval_on_selector_all("canvas.seiswidgets-plot", PIXELS)
+            if pictures == last and all(one[2] == 255 for one in pictures) and suits(pictures):
+                return pictures
+            last = pictures
+            time.sleep(0.2)
+        pytest.fail(f"the pictures did not settle: {last}")
+
+    def lines(self, number=0):
+        """What the layer of a pane has drawn, without the cursors."""
+        plot = self.plots.nth(number)
+        return [plot.locator(f".{name}").first.evaluate("one => one.outerHTML") for name in ("mesh", "strokes", "marks")]
+
+    def line(self, name, number=0):
+        """The pixels that a named pick's first line goes through in a pane, shape (n, 2)."""
+        count = self.plots.nth(number).locator(".stroke").count()
+        states = self.ask(f"[stroke['label'] for stroke in panes[{number % 2}].layer.strokes]")
+        assert len(states) == count
+        return self.stroke(states.index(name), number)
+
+    def stroke(self, index, number=0):
+        """The pixels that one of a pane's lines goes through, shape (n, 2)."""
+        path = self.plots.nth(number).locator(".stroke .line").nth(index).get_attribute("d")
+        return np.array(re.findall(r"[-.\de]+", path), float).reshape(-1, 2)
+
+    def pixels(self, points, number=0):
+        """Where points of a pane's section are on the page, in css pixels, shape (n, 2)."""
+        box = self.plots.nth(number).bounding_box()
+        at = self.ask(f"panes[{number % 2}].view.to_pixels({np.asarray(points).tolist()}).tolist()")
+        return np.add(at, [box["x"], box["y"]]).clip(  # a click on the very border may miss
+            [box["x"] + 1, box["y"] + 1], [box["x"] + box["width"] - 1, box["y"] + box["height"] - 1]
+        )
+
+    def points(self, code):
+        """Points of the section that an expression gives in the kernel, shape (n, 2)."""
+        return np.array(self.ask(f"np.asarray({code}).tolist()"))
+
+    def click(self, *points, number=0, modifiers=()):
+        """Click on points of a pane's section, and give back where that was on the page."""
+        at = self.pixels(points, number)
+        for key in modifiers:
+            self.page.keyboard.down(key)
+        for x, y in at:
+            self.page.mouse.click(x, y)
+        for key in modifiers:
+            self.page.keyboard.up(key)
+        return at
+
+    def draw(self, *points, number=0):
+        """Click on points, twice on the last."""
+        at = self.pixels(points, number)
+        for x, y in at[:-1]:
+            self.page.mouse.click(x, y)
+        self.page.mouse.dblclick(*at[-1])
+        return at
+
+    def drag(self, start, end, number=0, drop=True):
+        """Drag from one point of the section to another."""
+        (x, y), to = self.pixels([start, end], number)
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        self.page.mouse.move(*to, steps=6)
+        if drop:
+            self.page.mouse.up()
+
+    def press(self, *keys):
+        """Keys, one after the other."""
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def becomes(self, code, value, atol=1e-9):
+        """Wait until an expression of numbers has a value in the kernel."""
+        self.until(f"np.shape({code}) == {np.shape(value)} and np.allclose({code}, {np.asarray(value).tolist()}, 0, {atol})")
+
+    def shows(self, code, value, seconds=30):
+        """Wait until an expression has just this value in the kernel."""
+        end = time.monotonic() + seconds
+        while (now := self.ask(code)) != value:
+            assert time.monotonic() < end, f"{code} is {now}, not {value}"
+            time.sleep(0.05)
+
+    def shoot(self, name):
+        """A screenshot, to be looked at."""
+        SCREENSHOTS.mkdir(exist_ok=True)
+        self.page.screenshot(path=SCREENSHOTS / f"{name}.png")
