@@ -160,9 +160,9 @@ def outline(mesh: Mesh, vertices, closing: float, finder: TriangleFinder | None 
     -------
     shapely Polygon or MultiPolygon
     """
-    edges = shapely.linestrings(vertices[mesh.boundary])
+    edges = shapely.line_merge(shapely.multilinestrings(shapely.linestrings(vertices[mesh.boundary])))
     grid = 2.0**-30 * np.ptp(vertices, axis=0).max()
-    faces = shapely.get_parts(shapely.polygonize([shapely.union_all(edges, grid_size=grid)]))
+    faces = shapely.get_parts(shapely.polygonize([shapely.union_all([edges], grid_size=grid)]))
     inside = shapely.get_coordinates(shapely.point_on_surface(faces))
     finder = finder or TriangleFinder(vertices, mesh.triangles)
     covered = shapely.union_all(faces[finder(inside) >= 0])

@@ -73,11 +73,13 @@ def parts(pieces: Sequence[LineString], faults: Sequence[LineString]) -> list[Pa
 def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1) -> list[Part]:
     """A line in parts, cut where it crosses faults."""
     crossings = sorted(
-        (piece.project(point), number)
-        for number, fault in enumerate(faults)
-        for point in _points(piece.intersection(fault))
+        (piece.project(point), fault)
+        for fault in np.flatnonzero(shapely.intersects(piece, np.array(faults, object))).tolist()
+        for point in _points(piece.intersection(faults[fault]))
     )
     length = piece.length
+    if not crossings and length > 0:
+        return [Part(piece, (None, None), number)]
     inner = [(way, fault) for way, fault in crossings if 1e-9 * length < way < (1 - 1e-9) * length]
     stops = [(0.0, None), *inner, (length, None)]
     found = []
@@ -96,6 +98,8 @@ def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1
 
 def _extended(part, faults):
     """A part with its free ends drawn on to the first fault in reach."""
+    if not faults:
+        return part
     points, ends = list(part.line.coords), list(part.ends)
     for place in (0, -1):
         end = ends[place] or reached(part.line, place, faults, EXTENSION * part.line.length)
@@ -114,8 +118,8 @@ def reached(line: LineString, place: int, faults: Sequence[LineString], reach: f
     ray = LineString([tip, tip + (reach + touch) * direction])
     met = [
         (max(0.0, Point(tip).distance(point)), number, point.coords[0])
-        for number, fault in enumerate(faults)
-        for point in [*_points(ray.intersection(fault)), *_touched(fault, tip, touch)]
+        for number in np.flatnonzero(shapely.dwithin(np.array(faults, object), Point(tip), 2 * (reach + touch))).tolist()
+        for point in [*_points(ray.intersection(faults[number])), *_touched(faults[number], tip, touch)]
     ]
     if not met:
         return None

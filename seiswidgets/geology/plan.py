@@ -16,7 +16,7 @@ from seiswidgets.geology.weights import Weights
 
 UNFAULT, FLATTEN = "unfault", "flatten"
 OTHER_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch")}  # that a step has no use for
-COARSE, QUICK = 2.0, 2  # times the mesh spacing, and iterations, of a quick look
+COARSE, QUICK = 3.0, 2  # times the mesh spacing, and iterations, of a quick look
 
 
 @dataclass(frozen=True)
@@ -119,6 +119,7 @@ class Task:
     interpretation: Interpretation
     fixed: tuple[float, float] | None
     plan: Plan
+    quick: bool = False
 
     @property
     def steps(self) -> list[Step]:
@@ -128,9 +129,9 @@ class Task:
 
     @property
     def coarse(self) -> "Task":
-        """The same on a coarser mesh and in few iterations, for a quick look from an earlier one."""
+        """The same for a quick look from an earlier one: on a coarser mesh with simpler lines, in few iterations."""
         spacing = COARSE * Restoration(self.section, self.plan.spacing).ground.spacing
-        return replace(self, plan=replace(self.plan, spacing=spacing, max_iterations=QUICK))
+        return replace(self, plan=replace(self.plan, spacing=spacing, max_iterations=QUICK), quick=True)
 
     def restored(
         self,
@@ -138,7 +139,7 @@ class Task:
         progress: Callable[[int, int, float], bool | None] | None = None,
     ) -> Restoration:
         """What the task comes to; stages of an earlier one are taken, or started from."""
-        restoration = Restoration(self.section, self.plan.spacing)
+        restoration = Restoration(self.section, self.plan.spacing, quick=self.quick)
         stages = earlier[1].stages if earlier else ()
         same = self._alike(earlier[0]) if earlier else 0
         for number, step in enumerate(self.steps):
@@ -195,6 +196,7 @@ class Task:
                 self.plan.solver,
                 self.plan.spacing,
                 self.plan.max_iterations,
+                self.quick,
             )
 
 
