@@ -8,7 +8,8 @@ BIN := $(VENV)/bin
 NOTEBOOK ?= notebooks/01_restore_a_section.ipynb
 NOTEBOOKS = $(wildcard notebooks/*.ipynb)
 BINDER := $(VENV)/binder
-BINDER_PYTHON ?= $(shell command -v python3.11 || command -v $(PYTHON))
+BINDER_PYTHON ?= $(shell python3.11 -c 'import sys; print(sys.executable)' 2>/dev/null || command -v $(PYTHON))
+SOURCES = $(shell find seiswidgets -name '*.py' -o -name '*.js' -o -name '*.css')
 AS_ROOT = $(if $(filter 0,$(shell id -u)),--allow-root)
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
 
@@ -66,7 +67,7 @@ $(VENV)/.docs: pyproject.toml $(VENV)/.test
 	@$(INSTALL) --editable '.[lab,fast,test,docs]'
 	@touch $@
 
-$(BINDER)/.ready: binder/requirements.txt binder/postBuild pyproject.toml $(shell find seiswidgets -name '*.py' -o -name '*.js' -o -name '*.css') | $(BIN)/pip
+$(BINDER)/.ready: binder/requirements.txt binder/postBuild pyproject.toml $(SOURCES) | $(BIN)/pip
 	@echo "installing what binder/ lists"
 	@$(BINDER_PYTHON) -m venv $(BINDER)
 	@$(BINDER)/bin/python -m pip install --quiet --disable-pip-version-check -r binder/requirements.txt

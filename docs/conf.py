@@ -14,7 +14,7 @@ extensions = ["myst_nb", "numpydoc", "sphinx.ext.autodoc"]
 # The sources start at the project's folder, so that notebooks and CONTRIBUTING.md are pages without being copied.
 root_doc = "docs/index"
 include_patterns = ["docs/**", "notebooks/*.ipynb", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSES.md"]
-exclude_patterns = ["docs/_build", "notebooks/dashboard.ipynb"]
+exclude_patterns = [".venv", "docs/_build", "notebooks/dashboard.ipynb"]
 
 default_role = "literal"
 myst_heading_anchors = 3
