@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from ipywidgets import Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
+from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
 from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
 
 from seiswidgets.errors import SettingError
@@ -209,9 +209,12 @@ class Picker(VBox):
         follow = ToggleButton(
             description="Follow", tooltip="lines between two clicks follow the event", layout=Layout(width="auto")
         )
-        for widget, name in ((modes, "mode"), (snap, "snap"), (follow, "follow")):
+        window = BoundedFloatText(
+            min=0.5, max=100, step=0.5, tooltip="samples that a vertex may move to snap", layout=Layout(width="64px")
+        )
+        for widget, name in ((modes, "mode"), (snap, "snap"), (window, "window"), (follow, "follow")):
             tie(self, name, widget)
-        tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, follow])]
+        tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, window, follow])]
         return Box(
             tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 10px")
         )
