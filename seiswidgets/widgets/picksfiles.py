@@ -1,6 +1,7 @@
 """Picks in and out of files, in the app."""
 
 import warnings
+from os.path import expanduser
 
 from ipywidgets import Button, Checkbox, Dropdown, HBox, Layout, Text, VBox
 
@@ -62,7 +63,7 @@ class PicksFiles(VBox):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             picks = read_picks(
-                self.file.path,
+                expanduser(self.file.path),
                 self._app.section,
                 format=self.format.value,
                 x_unit=self.x_unit.value,
@@ -81,7 +82,7 @@ class PicksFiles(VBox):
         DataError, SettingError
             As for `write_picks`.
         """
-        path = self.out.value.strip()
+        path = expanduser(self.out.value.strip())
         picks = self._app.interpretation
         write_picks(picks, path, self._app.section)
         left_out = len(self._app.picker.drawing.picks) - len(picks.faults) - len(picks.horizons)

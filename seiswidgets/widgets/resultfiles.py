@@ -1,6 +1,5 @@
 """Results of a restoration as files in a folder, from the app."""
 
-import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from seiswidgets.io.results import save_section
 from seiswidgets.io.sources import FILE
 from seiswidgets.io.writing import written
 from seiswidgets.io.xarrays import displacement
+from seiswidgets.widgets.filenames import file_name
 from seiswidgets.widgets.question import Question
 
 DPI = 300  # of a picture of dots: print quality
@@ -90,7 +90,7 @@ class ResultFiles(VBox):
         given = self.stem.value.strip()
         if given != Path(given).name or given in (".", ".."):
             raise SettingError(f"the name must be a name without folders, but is {given!r}; give those as the folder")
-        return given or re.sub(r"[^\w .()+-]", "_", self._app.section.name)[:80].strip(" .") or "section"
+        return given or file_name(self._app.section.name, "section")
 
     def _said(self):
         self.notice.hint("Writing ...")

@@ -12,14 +12,15 @@ from seiswidgets.io.opening import open_section, preview
 from seiswidgets.io.sources import FILE, SectionSource
 from seiswidgets.widgets.drawing import Drawing
 from seiswidgets.widgets.filefield import FileField
+from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.question import Question
 from seiswidgets.widgets.sectionfields import SectionFields
 from seiswidgets.widgets.worker import Worker
 
 KINDS = ".sgy,.segy,.seg,.png,.jpg,.jpeg,.tif,.tiff,.npy,.npz,.txt,.csv,.asc,.tsv"
 HEADER = (
-    '<details><summary>textual header</summary><pre style="line-height: 1.2; overflow: auto; max-height: 240px">{}</pre>'
-    "</details>"
+    "<details><summary>textual header</summary>"
+    '<pre style="line-height: 1.2; overflow: auto; max-height: 240px">{}</pre></details>'
 )
 KEEP, DROP, BACK = "Keep the picks", "Drop the picks", "Do not open"
 
@@ -51,10 +52,10 @@ class SectionOpener(VBox):
         super().__init__([self.file, self._preview, self.fields, HBox([self._open, self._progress]), self.notice])
         self.file.observe(self._look, "path")
         self.file.observe(lambda change: self.notice.alert(change.new), "error")
-        self._open.on_click(lambda _: self.open())
+        self._open.on_click(lambda _: self.load())
         self._cancel.on_click(lambda _: self.cancel())
 
-    def open(self) -> None:
+    def load(self) -> None:
         """Open the chosen file, as the fields say, in the background."""
         try:
             choices = self.fields.choices()
@@ -82,11 +83,10 @@ class SectionOpener(VBox):
     def _look(self, change):
         """Show what the file holds."""
         self._worker.cancel()
-        self.fields.children, self._preview.value, self._open.disabled = (), "", True
+        self.fields.children, self._preview.value = (), ""
         self._rest("")
         if not change.new:
             return
-        self._open.disabled = True
         try:
             info = preview(change.new)
         except SeiswidgetsError as error:
@@ -105,12 +105,11 @@ class SectionOpener(VBox):
             section = open_section(path, **kept, progress=partial(self._tell, wanted))
         except Cancelled:
             return
-        except SeiswidgetsError as error:
-            self._end(wanted, self.notice.alert, str(error))
+        except Exception as error:  # noqa: BLE001 - nobody else would hear of it on this thread
+            self._end(wanted, self.notice.alert, in_words(error))
             return
-        source = (
-            None if self.file.is_uploaded else SectionSource(FILE, str(Path(path).expanduser().absolute()), choices)
-        )
+        stays = not self.file.is_uploaded
+        source = SectionSource(FILE, str(Path(path).expanduser().absolute()), choices) if stays else None
         self._end(wanted, self._take, section, source)
 
     def _tell(self, wanted, share):
@@ -146,9 +145,8 @@ class SectionOpener(VBox):
         except SeiswidgetsError as error:
             self.notice.alert(str(error))
             return
-        self.notice.hint(
-            f"Opened: {section.name or 'section'}, {section.shape[1]} traces of {section.shape[0]} samples."
-        )
+        samples, traces = section.shape
+        self.notice.hint(f"Opened: {section.name}, {traces} traces of {samples} samples.")
 
 
 def _described(info: SectionInfo) -> str:
@@ -157,8 +155,7 @@ def _described(info: SectionInfo) -> str:
     parts = [f"{info.kind} ({info.format}), {_size(info.size)}", f"{traces} traces of {samples} samples"]
     for name, lines in (("inlines", info.inlines), ("crosslines", info.crosslines)):
         parts += [f"{name} {lines[0]} to {lines[1]} ({lines[2]})"] if lines else []
-    unit = info.x_unit or ""
-    for name, value, unit in (("traces", info.dx, unit), ("samples", info.dz, "ms or m")):
+    for name, value, unit in (("traces", info.dx, info.x_unit), ("samples", info.dz, "ms or m")):
         parts += [f"{name} {value:g} {unit} apart"] if value is not None else []
     header = HEADER.format(escape(info.header)) if info.header else ""
     return f'<div style="line-height: 1.4">{escape("; ".join(parts))}.</div>{header}'

@@ -7,9 +7,10 @@ from weakref import WeakValueDictionary
 from ipywidgets import Dropdown, Layout, VBox
 from traitlets import Instance
 
-from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
+from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io.autosave import Autosave, Version, found, numbered, set_aside
 from seiswidgets.io.sources import FILE, resolved, section_sha256
+from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.question import Question
 from seiswidgets.widgets.sessions import drawing_of, session_of
 from seiswidgets.widgets.worker import Worker
@@ -198,8 +199,8 @@ class SessionBar(VBox):
             section = session.open_section()
             if wanted():
                 self._take(session, section)
-        except SeiswidgetsError as error:
-            self._ask_again(error)
+        except Exception as error:  # noqa: BLE001 - nobody else would hear of it on this thread
+            self._ask_again(in_words(error))
 
     def _open_picks(self):
         session, section = self.versions.value.session, self._app.section
