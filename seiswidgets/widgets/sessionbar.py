@@ -41,7 +41,7 @@ class SessionBar(VBox):
 
     def __init__(self, app):
         self._app, self._autosave, self._sha256 = app, None, None
-        self._worker = Worker()
+        self._worker, self._has_work = Worker(), False
         self.notice, self._failure = Question(), Question()
         self.versions = Dropdown(description="version", layout=Layout(width="auto", max_width="100%"))
         super().__init__([self._failure, self.notice])
@@ -129,14 +129,14 @@ class SessionBar(VBox):
         """Save under a path from now on."""
         self.path, _in_use[path] = path, self
         self._sha256 = section_sha256(self._app.section)
-        self._autosave = Autosave(path, report=self._report)
-        if self._app.picker.drawing.picks:
-            self._take_edit()
+        self._autosave, self._has_work = Autosave(path, report=self._report), False
+        self._take_edit()
 
     def _take_edit(self, change=None):
-        if self._autosave is not None:
-            app = self._app
-            drawn = app.picker.drawing
+        """Have the work saved, from the first pick on."""
+        app, drawn = self._app, self._app.picker.drawing
+        self._has_work = self._has_work or bool(drawn.picks)
+        if self._autosave is not None and self._has_work:
             self._autosave.save(session_of(drawn, app.plan, app.section, self._sha256, app.source, self.path))
 
     def _report(self, error):
