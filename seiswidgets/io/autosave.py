@@ -12,6 +12,7 @@ from datetime import datetime
 from pathlib import Path
 
 from seiswidgets.errors import DataError
+from seiswidgets.io.atomic import write_atomically
 from seiswidgets.io.session import Session, open_session
 
 KEEP = 10
@@ -153,15 +154,38 @@ class Autosave:
 
 
 def found(path: str | os.PathLike) -> list[Version]:
-    """The versions that an `Autosave` of that path has left and that can be opened, the newest first."""
+    """The versions that an `Autosave` of that path has left and that can be opened, the newest first.
+
+    A session that was saved under the path itself is the last of them.
+    """
     versions = []
-    for _, saved in sorted(numbered(Path(path)).items(), reverse=True):
+    for saved in [*(file for _, file in sorted(numbered(Path(path)).items(), reverse=True)), Path(path)]:
         try:
             session = open_session(saved, allow_outside=True)  # the section's file is not opened yet
             versions.append(Version(saved, datetime.fromtimestamp(saved.stat().st_mtime).astimezone(), session))
         except OSError:  # DataError is one; or another process deleted it just now
             continue
     return versions
+
+
+def set_aside(path: str | os.PathLike) -> Path | None:
+    """A copy of the newest version, ``<stem>.before-000012.json``, that stays however much is saved; None if none is.
+
+    Raises
+    ------
+    DataError
+        If it cannot be copied.
+    """
+    path, versions = Path(path), numbered(Path(path))
+    if not versions:
+        return None
+    newest = max(versions)
+    copy = path.with_name(f"{path.stem}.before-{newest:06d}{path.suffix}")
+    try:
+        write_atomically(copy, versions[newest].read_bytes())
+    except OSError as error:
+        raise DataError(f"{versions[newest]} cannot be set aside: {error}") from error
+    return copy
 
 
 def numbered(path: Path) -> dict[int, Path]:

@@ -5,7 +5,6 @@ import inspect
 import io
 import json
 import os
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import partial
@@ -19,6 +18,7 @@ from seiswidgets.geology import synthetic
 from seiswidgets.geology.history import Survey
 from seiswidgets.geology.section import Section
 from seiswidgets.io import datasets
+from seiswidgets.io.opening import open_section
 
 FILE, SYNTHETIC, DATASET = "file", "synthetic", "dataset"
 NAMES = {  # what a session may call, whatever it says
@@ -35,7 +35,6 @@ NAMES = {  # what a session may call, whatever it says
     DATASET: ("f3", "teapot"),
 }
 MOST_SAMPLES = 4_000_000  # of a synthetic section
-LARGEST_ARRAYS = 2**30  # bytes
 
 
 @dataclass(frozen=True)
@@ -149,22 +148,8 @@ def _synthetic(function, **choices):
 
 
 def _open_file(path, **choices):
-    """The one place where a session opens a file. Until files of all kinds can be opened: our own .npz."""
-    choices = {name: _revived(value) for name, value in choices.items()}
-    if choices or path.suffix.lower() != ".npz":
-        raise DataError(f"{path} cannot be opened; a section must be in a .npz file, and takes no choices")
-    try:
-        with zipfile.ZipFile(path) as archive:
-            size = sum(part.file_size for part in archive.infolist())
-        if size > LARGEST_ARRAYS:
-            raise DataError(f"{path} would need {size / 2**20:.0f} MiB; a section may have {LARGEST_ARRAYS // 2**20}")
-        with np.load(path, allow_pickle=False) as arrays:
-            amplitude = arrays["amplitude"]
-            return Section(amplitude, **{name: arrays[name].item() for name in arrays.files if name != "amplitude"})
-    except SeiswidgetsError:
-        raise
-    except (OSError, KeyError, TypeError, ValueError, zipfile.BadZipFile) as error:
-        raise DataError(f"{path} cannot be opened as a section: {error}") from error
+    """The one place where a session opens a file."""
+    return open_section(path, **{name: _revived(value) for name, value in choices.items()})
 
 
 def npz(section: Section) -> bytes:

@@ -1,6 +1,7 @@
 """The restoration app: draw, restore, look."""
 
 import logging
+from os import PathLike
 
 import numpy as np
 from ipywidgets import GridBox, Layout, Tab, VBox
@@ -12,7 +13,9 @@ from seiswidgets.geology.plan import Plan, Task
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.weights import Weights
+from seiswidgets.io.sources import SectionSource
 from seiswidgets.widgets.controls import DisplayControls, SolverControls
+from seiswidgets.widgets.filepanel import FilePanel
 from seiswidgets.widgets.frame import Frame
 from seiswidgets.widgets.histogram import DeformationHistogram
 from seiswidgets.widgets.linkedpanes import LinkedPanes
@@ -20,22 +23,24 @@ from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.picker import Picker
 from seiswidgets.widgets.reports import Reports
 from seiswidgets.widgets.restorer import REST, Restorer
+from seiswidgets.widgets.sessionbar import SessionBar
 from seiswidgets.widgets.statusbar import StatusBar
 from seiswidgets.widgets.steplist import StepList
 from seiswidgets.widgets.timeline import Timeline
+from seiswidgets.widgets.turning import Turning
 from seiswidgets.widgets.weightsliders import WeightSliders
 from seiswidgets.widgets.worker import Worker
 
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
 CHANGED = "Something has changed since: press Restore."
-TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report")
+TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report", "File")
 SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
 
 _log = logging.getLogger(__name__)
 
 
-class RestorationApp(VBox):
+class RestorationApp(Turning, VBox):
     """Draw faults and horizons on a section, restore it, and look at what that took.
 
     On the left is the section of today, on the right the restored one; lines can be drawn in either. While something
@@ -50,6 +55,12 @@ class RestorationApp(VBox):
         A point in the block that stays where it is.
     height : int
         Of each pane, in css pixels.
+    session : path, optional
+        A file ``folder/name.json`` to keep the work in: it is saved there after every edit (as `Autosave` does), and
+        earlier work that is found there is offered. If left out, no file is written until one is chosen in the tab
+        File.
+    source : SectionSource, optional
+        Where the section comes from. If left out, a session keeps the section beside it.
     **settings
         Initial values of the other attributes.
 
@@ -64,6 +75,10 @@ class RestorationApp(VBox):
         Whether every change restores by itself; if not, the button does.
     restoration : Restoration
         The newest on the full mesh. All may be set, and observed.
+    section : Section
+        May be set: picks that lie on the new one too are kept, others go, and there is nothing to undo.
+    session_path : Path or None
+        Where the work is kept; may be set.
     panes, picker, histogram, sliders, timeline : LinkedPanes, Picker, DeformationHistogram, WeightSliders, Timeline
         The parts.
 
@@ -71,6 +86,8 @@ class RestorationApp(VBox):
     ------
     SettingError
         If a setting is out of its range, or a restoration of another section is set.
+    DataError
+        If the session's folder is not there, or what was drawn on an earlier section cannot be saved.
     """
 
     interpretation = Instance(Interpretation, ())
@@ -87,22 +104,21 @@ class RestorationApp(VBox):
         *,
         fixed: tuple[float, float] | None = None,
         height: int = 400,
+        session: str | PathLike | None = None,
+        source: SectionSource | None = None,
         **settings,
     ):
         settings = {"steps": Plan().steps, "restoration": Restoration(section), **settings}
         picks = {"interpretation": interpretation or Interpretation(), "fixed": fixed}
         self._ready = self._pressed = False
+        self.source = source
         self._make_parts(section, picks, height)
         self._restorer, self._moments = Restorer(self._draw, self.status.tell, self._fail), Worker()
         super().__init__(self._placed(), **picks, **settings)
         self._tie_parts()
         self._ready = True
         self._restore_soon()
-
-    @property
-    def section(self) -> Section:
-        """That is restored."""
-        return self.panes.original.section
+        self.session_path = session
 
     @property
     def plan(self) -> Plan:
@@ -122,13 +138,17 @@ class RestorationApp(VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all that is under way is done, as a script may want; False if that took too long."""
-        return self._restorer.wait(timeout) and self._moments.wait(timeout)
+        return all(part.wait(timeout) for part in (self.files, self.keeper, self._restorer, self._moments))
 
     def close(self) -> None:
-        """Stop what is under way, and take the app off the screen."""
+        """Stop what is under way, save what is not saved yet, and take the app off the screen."""
         self._restorer.cancel()
         self._moments.cancel()
-        super().close()
+        self.files.end()
+        try:
+            self.keeper.end()
+        finally:
+            super().close()
 
     def _make_parts(self, section, picks, height):
         self.panes = LinkedPanes(section, height=height, deformation=0.5)
@@ -141,18 +161,20 @@ class RestorationApp(VBox):
         self.timeline = Timeline()
         self.status = StatusBar(self.restore, self.cancel)
         self.reports = Reports()
+        self.keeper = SessionBar(self)
+        self.files = FilePanel(self)
 
     def _placed(self):
         """The parts in their places."""
         display = DisplayControls(self.panes)
-        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports)
+        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports, self.files)
         tabs = Tab(pages, titles=TABS, layout=Layout(min_width="0"))
         below = GridBox(
             [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), tabs],
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
-        return [self.picker.toolbar, self.status, self.panes, below, Names()]
+        return [self.picker.toolbar, self.status, self.keeper, self.panes, below]
 
     def _tie_parts(self):
         for name in ("interpretation", "fixed"):

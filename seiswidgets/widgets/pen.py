@@ -238,6 +238,12 @@ class Pen:
         if interpretation is not self.interpretation:
             self.edit(self.drawing.with_interpretation(interpretation), self.state.selection)
 
+    def begin(self, drawing: Drawing) -> None:
+        """Start anew with other picks: nothing is under way, selected, or there to be undone."""
+        self._past.clear()
+        self._future.clear()
+        self.state, self.sight = PenState(self.state.mode, drawing), Sight(self.view)
+
     def change(self, **changes) -> None:
         """Change the state, and what must go with it; not an edit by itself."""
         state = replace(self.state, **changes)

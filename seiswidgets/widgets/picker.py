@@ -11,7 +11,7 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.canvas import LOCK
-from seiswidgets.widgets.drawing import HORIZON
+from seiswidgets.widgets.drawing import HORIZON, Drawing
 from seiswidgets.widgets.gestures import Gesture, Key, Press, Release
 from seiswidgets.widgets.pane import SectionPane
 from seiswidgets.widgets.pen import Pen
@@ -68,6 +68,8 @@ class Picker(VBox):
         Whether the line between two clicks follows the event.
     dragging : bool
         Whether something is being dragged.
+    drawing : Drawing
+        All that is drawn, with its looks, even what is not valid; it follows, but for a drag, which it waits for.
     """
 
     interpretation = Instance(Interpretation, ())
@@ -77,6 +79,7 @@ class Picker(VBox):
     window = Float(5.0)
     follow = Bool(False)
     dragging = Bool(False)
+    drawing = Instance(Drawing, ())
 
     def __init__(self, section: Section | SectionPane, **settings):
         self.pane = section if isinstance(section, SectionPane) else SectionPane(section)
@@ -98,6 +101,18 @@ class Picker(VBox):
         self._panes.append((pane, sight))
         pane.take_keys(KEYS)
         pane.on_gesture(lambda gesture: self._handle(gesture, sight))
+        self.refresh()
+
+    def begin(self, drawing: Drawing) -> None:
+        """Start anew with other picks, on the section that the pane shows now; there is nothing to undo then."""
+        self.pen.begin(drawing)
+        self._grip, self._complaints = None, {}
+        self._set_snapping()
+        self.refresh()
+
+    def take(self, drawing: Drawing) -> None:
+        """Take other picks, with their looks; that can be undone."""
+        self.pen.edit(drawing)
         self.refresh()
 
     def complain(self, complaints: dict[str, str]) -> None:
@@ -134,6 +149,8 @@ class Picker(VBox):
         try:
             self.mode, self.dragging = self.pen.state.mode, self.pen.state.drag is not None
             self.fixed = self.pen.drawing.fixed
+            if not self.dragging:
+                self.drawing = self.pen.drawing
             if self.pen.interpretation is not self._told:
                 self.interpretation = self._told = self.pen.interpretation
         finally:
@@ -183,7 +200,7 @@ class Picker(VBox):
         self.refresh()
 
     @observe("snap", "window", "follow")
-    def _set_snapping(self, change):
+    def _set_snapping(self, change=None):
         section, event, window = self.pane.section, self.snap, self.window
         self.pen.snap = self.pen.follow = None
         if event != OFF:

@@ -92,6 +92,11 @@ class Restorer:
         self._worker.cancel()
         self._tell(None)
 
+    def forget(self) -> None:
+        """Give up what is under way, and start nothing from what has been: it was of another section."""
+        self.cancel()
+        self._quick = self._full = None
+
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all is done; False if that took too long."""
         return self._worker.wait(timeout)

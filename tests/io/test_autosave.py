@@ -10,7 +10,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError
-from seiswidgets.io.autosave import found, numbered
+from seiswidgets.io.autosave import found, numbered, set_aside
 from seiswidgets.io.savedpicks import SavedPick
 
 ROOT = Path(__file__).parents[2]
@@ -172,6 +172,29 @@ def test_an_error_in_what_is_reported_to_does_not_end_the_saving(path, disk, cap
         disk.reason = None
     assert found(path)[0].session == session(1)
     assert "ZeroDivisionError" in caplog.text
+
+
+def test_what_is_set_aside_stays(path):
+    assert set_aside(path) is None
+    with sw.Autosave(path, keep=2, **QUICK) as autosave:
+        for number in range(2):
+            autosave.save(session(number))
+            wait_for(lambda: autosave.pending is None)
+        copy = set_aside(path)
+        for number in range(2, 5):
+            autosave.save(session(number))
+            wait_for(lambda: autosave.pending is None)
+    assert copy.name == "line.before-000002.json"
+    assert sw.open_session(copy) == session(1)
+    assert [version.session for version in found(path)] == [session(4), session(3)]
+
+
+def test_a_session_saved_under_the_path_itself_is_found_last(path):
+    session(1).save(path)
+    assert [version.path for version in found(path)] == [path]
+    with sw.Autosave(path, **QUICK) as autosave:
+        autosave.save(session(2))
+    assert [version.session for version in found(path)] == [session(2), session(1)]
 
 
 def test_damaged_versions_are_left_out(path):

@@ -11,6 +11,7 @@ import seiswidgets as sw
 from seiswidgets.errors import DataError, PickError, SettingError
 from seiswidgets.io.savedpicks import SavedPick
 from seiswidgets.io.sources import _revived, npz, section_sha256
+from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.sections import real_section
 
 SYNTHETIC = sw.SectionSource("synthetic", "faulted_fold", {"throw": 120.0, "horizons": [700.0, 1000.0], "seed": 3})
@@ -69,6 +70,17 @@ def test_a_session_comes_back_as_it_was(session, saved):
     assert again.faults[0].colour == "#e69f00"
     assert [(pick.colour, pick.visible) for pick in again.horizons] == [(None, True), ("teal", False)]
     assert again.written_by == f"seiswidgets {sw.__version__}"
+
+
+def test_a_line_of_a_volume_is_opened_again_with_its_choices(tmp_path):
+    headers = volume_headers([10, 11], [1, 2, 3, 4])
+    path = tmp_path / "volume.sgy"
+    path.write_bytes(segy_bytes(numbered(headers), headers))
+    section = sw.open_section(path, traces=slice(5, 8), z_unit="m")
+    source = sw.SectionSource("file", str(path), {"traces": [5, 8], "z_unit": "m"})
+    sw.Session.of(section, source, sw.Interpretation()).save(tmp_path / "session.json")
+    again = sw.open_session(tmp_path / "session.json").open_section()
+    np.testing.assert_array_equal(again.amplitude, section.amplitude)
 
 
 def test_it_gives_the_same_restoration(case, saved):
@@ -198,21 +210,21 @@ def test_paths_cannot_leave_the_folder_unless_allowed(case, saved, tmp_path):
         section = sw.open_session(path, allow_outside=True).open_section()
         assert section_sha256(section) == section_sha256(case.section)
     path = changed(saved, lambda document: document["section"]["source"].update(path="a/../not-there.npz"))
-    with pytest.raises(DataError, match=r"not-there.npz cannot be opened as a section"):
+    with pytest.raises(DataError, match=r"not-there.npz is not there; give the path"):
         sw.open_session(path).open_section()
 
 
 @pytest.mark.parametrize("name", ["a\0b", "\ud800", "x" * 5000])
 def test_paths_that_no_file_can_have_are_refused(saved, name):
     path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": name}))
-    with pytest.raises(DataError, match=r"session.json|cannot be opened"):
+    with pytest.raises(DataError, match=r"session.json|cannot be the path"):
         sw.open_session(path).open_section()
 
 
 def test_nothing_is_unpickled(saved, tmp_path):
     np.savez(tmp_path / "evil.npz", amplitude=np.array([[{}]], dtype=object))
     path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": "evil.npz"}))
-    with pytest.raises(DataError, match=r"evil.npz cannot be opened as a section: .*allow_pickle=False"):
+    with pytest.raises(DataError, match=r"evil.npz holds object, not real numbers"):
         sw.open_session(path).open_section()
 
 
@@ -247,7 +259,7 @@ def test_nothing_is_unpickled(saved, tmp_path):
             "of 8000000 samples is too large; make dx or dz larger",
         ),
         ("dataset", "f3", {"speed": 3}, DataError, "the section cannot be made with {'speed': 3}"),
-        ("file", "line.sgy", {}, DataError, "line.sgy cannot be opened"),
+        ("file", "line.sgy", {}, DataError, "line.sgy is not there"),
         ("file", "line.npz", {"traces": {"range": [1, 9, 0]}}, DataError, "the section cannot be made with .*'traces'"),
     ],
 )
