@@ -9,7 +9,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError
-from seiswidgets.io.autosave import found, set_aside
+from seiswidgets.io.autosave import found, numbered, set_aside
 from seiswidgets.io.savedpicks import SavedPick
 
 SESSION = sw.Session(sw.SectionSource("dataset", "f3"), None)
@@ -221,7 +221,7 @@ def test_a_process_that_is_killed_leaves_only_complete_versions(path):
     root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     code = KILLED.format(root=root, path=str(path))
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
-        wait_for(lambda: len(found(path)) > 5, seconds=60)
+        wait_for(lambda: max(numbered(path), default=0) > 15, seconds=60)
         process.kill()
         process.stdout.read()
     versions = found(path)
