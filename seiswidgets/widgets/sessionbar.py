@@ -188,10 +188,13 @@ class SessionBar(VBox):
             self._worker.ask(lambda wanted: self._load(session, wanted))
 
     def _is_outside(self, source):
+        if source.kind != FILE:
+            return False
         try:
-            return source.kind == FILE and not resolved(self.path.parent, source.name, allow_outside=False)
+            resolved(self.path.parent, source.name, allow_outside=False)
         except DataError:
             return True
+        return False
 
     def _load(self, session, wanted):
         """Open a session's section, on the worker's thread."""
