@@ -60,12 +60,15 @@ class SessionBar(VBox):
         SettingError
             If it does not end in .json.
         DataError
-            If there is no such folder, or what is not saved yet cannot be.
+            If there is no such folder; or if the path is None, and what is not saved yet cannot be.
         """
-        path = None if path is None else _checked(path)
-        self.end()
         if path is None:
+            self.end()
             return
+        path = _checked(path)
+        with contextlib.suppress(DataError):  # whose remedy may be this path: all that is drawn is saved there
+            self.end()
+        self._failure.hint("")
         if path in _in_use:
             _in_use[path].give_up()
         self.path, _in_use[path] = path, self

@@ -203,6 +203,19 @@ def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_d
     assert "Saved again" in app.keeper.notice.text
 
 
+def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk, monkeypatch):
+    app = new_app(session=path)
+    full_disk.append(True)
+    draw_fault(app)
+    wait_for(lambda: app.keeper._failure.text)
+    full_disk.clear()
+    monkeypatch.setattr(app.keeper._autosave, "_written", lambda session: DataError("still full"))
+    app.session_path = path.with_name("other.json")
+    assert not app.keeper._failure.text
+    wait_for(lambda: names(path.with_name("other.json")) == ["F1"])
+    assert names(path) == []
+
+
 def test_closing_on_a_full_disk_says_so(new_app, path, full_disk):
     app = new_app(session=path)
     full_disk.append(True)
