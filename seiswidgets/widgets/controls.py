@@ -84,7 +84,8 @@ class SolverControls(VBox):
         self._show()
 
     def _on_slider(self, change):
-        if not self._quiet:
+        moved = abs(math.log10(change.new) - math.log10(self.spacing or self._middle))
+        if not self._quiet and moved > 0.501 * self._slider.step:  # else the page has but rounded what it was given
             self.spacing = change.new
 
     @observe("spacing")

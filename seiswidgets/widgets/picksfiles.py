@@ -42,7 +42,7 @@ class PicksFiles(VBox):
         self.line = Text(description="seismic line", placeholder="if there are several", style=STYLE, layout=WIDE)
         self._of_exports = VBox([self.along, self.line, self.z_up], layout=Layout(display="none"))
         self.out = Text(placeholder="picks.geojson or picks.csv", layout=Layout(flex="1", width="auto"))
-        read = Button(description="Import picks", icon="sign-in", layout=Layout(width="auto"))
+        read = Button(description="Import picks", icon="sign-in", layout=Layout(width="auto", align_self="flex-start"))
         write = Button(description="Export picks", icon="sign-out", layout=Layout(width="auto"))
         units = [self.format, self.x_unit, self.z_unit, self._of_exports]
         super().__init__([self.file, *units, read, HBox([self.out, write]), self.notice])

@@ -51,7 +51,8 @@ class ResultFiles(VBox):
             for ending, (words, _) in WRITERS.items()
         }
         self.replace = Checkbox(description="replace files of the same names", indent=False)
-        export = Button(description="Export results", icon="download", layout=Layout(width="auto"))
+        export = Button(description="Export results", icon="download")
+        export.layout = Layout(width="auto", align_self="flex-start")
         export.on_click(lambda _: self._said())
         columns = Layout(grid_template_columns="repeat(auto-fit, minmax(180px, 1fr))")
         for field in (self.folder, self.stem):

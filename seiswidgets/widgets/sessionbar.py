@@ -60,12 +60,15 @@ class SessionBar(VBox):
         SettingError
             If it does not end in .json.
         DataError
-            If there is no such folder, or what is not saved yet cannot be.
+            If there is no such folder; or if the path is None, and what is not saved yet cannot be.
         """
-        path = None if path is None else _checked(path)
-        self.end()
         if path is None:
+            self.end()
             return
+        path = _checked(path)
+        with contextlib.suppress(DataError):  # whose remedy may be this path: all that is drawn is saved there
+            self.end()
+        self._failure.hint("")
         if path in _in_use:
             _in_use[path].give_up()
         self.path, _in_use[path] = path, self
@@ -188,10 +191,13 @@ class SessionBar(VBox):
             self._worker.ask(lambda wanted: self._load(session, wanted))
 
     def _is_outside(self, source):
+        if source.kind != FILE:
+            return False
         try:
-            return source.kind == FILE and not resolved(self.path.parent, source.name, allow_outside=False)
+            resolved(self.path.parent, source.name, allow_outside=False)
         except DataError:
             return True
+        return False
 
     def _load(self, session, wanted):
         """Open a session's section, on the worker's thread."""

@@ -77,7 +77,7 @@ def test_a_line_of_a_volume_is_opened_again_with_its_choices(tmp_path):
     path = tmp_path / "volume.sgy"
     path.write_bytes(segy_bytes(numbered(headers), headers))
     section = sw.open_section(path, traces=slice(5, 8), z_unit="m")
-    source = sw.SectionSource("file", str(path), {"traces": [5, 8], "z_unit": "m"})
+    source = sw.SectionSource("file", str(path), {"traces": slice(5, 8), "z_unit": "m"})
     sw.Session.of(section, source, sw.Interpretation()).save(tmp_path / "session.json")
     again = sw.open_session(tmp_path / "session.json").open_section()
     np.testing.assert_array_equal(again.amplitude, section.amplitude)

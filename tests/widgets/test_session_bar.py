@@ -107,7 +107,7 @@ def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
     app.steps = (sw.Step("unfault"),)
     app.fixed = (100.0, 100.0)
     app.close()
-    (*_, session) = found(path)[0].session, found(path)[0].session
+    session = found(path)[0].session
     assert [(pick.colour, pick.visible) for pick in session.faults] == [("#123456", False)]
     assert session.plan == app.plan == sw.Plan((sw.Step("unfault"),), sw.Weights(stitch=33.0), spacing=77.0)
     assert session.fixed == (100.0, 100.0)
@@ -147,7 +147,7 @@ def test_earlier_work_is_offered_and_opened(new_app, path, section):
     before = {file: file.read_bytes() for file in path.parent.iterdir()}
     again = new_app(session=path)
     assert "holds earlier work" in again.keeper.notice.text
-    assert [label.split(": ")[1][:20] for label, _ in again.keeper.versions.options][0] == "1 fault, 0 horizons "
+    assert ": 1 fault, 0 horizons (work.00000" in again.keeper.versions.options[0][0]
     draw_fault(again, OTHER)
     again.keeper.end()
     assert {file: file.read_bytes() for file in path.parent.iterdir()} == before
@@ -180,6 +180,7 @@ def test_who_starts_anew_keeps_the_earlier_work_aside(new_app, path):
     again = new_app(session=path)
     choose(again, "Start anew")
     assert "stays in" in again.keeper.notice.text
+    draw_fault(again, OTHER)
     for number in range(12):
         again.fixed = (100.0 + number, 100.0)
         wait_for(lambda: again.keeper._autosave.pending is None)
@@ -200,6 +201,19 @@ def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_d
     wait_for(lambda: names(path) == ["F1"])
     wait_for(lambda: not app.keeper._failure.text)
     assert "Saved again" in app.keeper.notice.text
+
+
+def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk, monkeypatch):
+    app = new_app(session=path)
+    full_disk.append(True)
+    draw_fault(app)
+    wait_for(lambda: app.keeper._failure.text)
+    full_disk.clear()
+    monkeypatch.setattr(app.keeper._autosave, "_written", lambda session: DataError("still full"))
+    app.session_path = path.with_name("other.json")
+    assert not app.keeper._failure.text
+    wait_for(lambda: names(path.with_name("other.json")) == ["F1"])
+    assert names(path) == []
 
 
 def test_closing_on_a_full_disk_says_so(new_app, path, full_disk):
