@@ -118,7 +118,9 @@ def reached(line: LineString, place: int, faults: Sequence[LineString], reach: f
     ray = LineString([tip, tip + (reach + touch) * direction])
     met = [
         (max(0.0, Point(tip).distance(point)), number, point.coords[0])
-        for number in np.flatnonzero(shapely.dwithin(np.array(faults, object), Point(tip), 2 * (reach + touch))).tolist()
+        for number in np.flatnonzero(
+            shapely.dwithin(np.array(faults, object), Point(tip), 2 * (reach + touch))
+        ).tolist()
         for point in [*_points(ray.intersection(faults[number])), *_touched(faults[number], tip, touch)]
     ]
     if not met:
