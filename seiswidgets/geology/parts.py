@@ -73,7 +73,7 @@ def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1
     """A line in parts, cut where it crosses faults."""
     crossings = sorted(
         (piece.project(point), fault)
-        for fault in np.flatnonzero(shapely.intersects(piece, np.array(faults, object))).tolist()
+        for fault in _near(faults, piece, 0.0)
         for point in _points(piece.intersection(faults[fault]))
     )
     length = piece.length
@@ -87,7 +87,7 @@ def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1
             continue
         line = _stretch(piece, start, stop)
         ends = tuple(
-            None if fault is None else _end(line, place, fault, faults[fault], tuple(shapely.get_coordinates(line)[place]))
+            None if fault is None else _end(line, place, fault, faults[fault], shapely.get_coordinates(line)[place])
             for fault, place in ((first, 0), (last, -1))
         )
         outer = (first is None) != (last is None)
@@ -127,15 +127,18 @@ def reached(line: LineString, place: int, faults: Sequence[LineString], reach: f
     ray = LineString([tip, tip + (reach + touch) * direction])
     met = [
         (max(0.0, Point(tip).distance(point)), number, point.coords[0])
-        for number in np.flatnonzero(
-            shapely.dwithin(np.array(faults, object), Point(tip), 2 * (reach + touch))
-        ).tolist()
+        for number in _near(faults, Point(tip), 2 * (reach + touch))
         for point in [*_points(ray.intersection(faults[number])), *_touched(faults[number], tip, touch)]
     ]
     if not met:
         return None
     gap, number, point = min(met)
     return _end(line, place, number, faults[number], point, gap if gap > touch else 0.0)
+
+
+def _near(faults, geometry, reach):
+    """Which of the faults come so near."""
+    return np.flatnonzero(shapely.dwithin(np.array(faults, object), geometry, reach)).tolist()
 
 
 def _touched(fault, tip, touch):
