@@ -119,40 +119,32 @@ def _split(mesh, vertices, splits):
         if half_edge // 3 in gone:
             continue
         one, two = (first, second) if forward else (second, first)
-        fan = _Fan(mesh, vertices, half_edge, one, two, inner if forward else inner[::-1])
-        if fan.least_area <= 1e-9 * mesh.areas[half_edge // 3]:
+        far, at_rest, places = _fan(mesh, vertices, half_edge, one, two, inner if forward else inner[::-1])
+        least = min(_least_area(at_rest - mesh.vertices[far]), _least_area(places - vertices[far]))
+        if least <= 1e-9 * mesh.areas[half_edge // 3]:
             continue
+        chain = np.array([one, *range(count, count + len(inner)), two])
         gone.add(half_edge // 3)
-        fans.append(fan.triangles(count))
-        rest.append(fan.rest[1:-1])
-        moved.append(fan.moved[1:-1])
+        fans.append(np.column_stack([chain[:-1], chain[1:], np.full(len(inner) + 1, far)]))
+        rest.append(at_rest[1:-1])
+        moved.append(places[1:-1])
         count += len(inner)
     kept = np.delete(mesh.triangles, list(gone), axis=0)
     return Mesh(np.vstack(rest), np.vstack([kept, *fans])), np.vstack(moved)
 
 
-class _Fan:
-    """The triangles from a triangle's far corner to a chain of places along its opposite edge, at rest and moved."""
-
-    def __init__(self, mesh, vertices, half_edge, one, two, inner):
-        triangle, corner = divmod(half_edge, 3)
-        self._ends, self._far = (one, two), mesh.triangles[triangle, (corner + 2) % 3]
-        self.moved = vertices[[one, *inner, two]]
-        ways = np.append(0, np.hypot(*np.diff(self.moved, axis=0).T).cumsum())
-        share = (ways / ways[-1])[:, None]
-        self.rest = (1 - share) * mesh.vertices[one] + share * mesh.vertices[two]
-        shapes = (self.rest, mesh.vertices), (self.moved, vertices)
-        self.least_area = min(_least_area(chain - at[self._far]) for chain, at in shapes)
-
-    def triangles(self, first):
-        """Corners of the triangles, where the new vertices are counted from ``first``."""
-        one, two = self._ends
-        chain = [one, *range(first, first + len(self.moved) - 2), two]
-        return np.column_stack([chain[:-1], chain[1:], np.full(len(chain) - 1, self._far)])
+def _fan(mesh, vertices, half_edge, one, two, inner):
+    """A triangle's far corner, and the chain of places along its opposite edge, at rest and after deformation."""
+    triangle, corner = divmod(half_edge, 3)
+    places = vertices[[one, *inner, two]]
+    ways = np.append(0, np.hypot(*np.diff(places, axis=0).T).cumsum())
+    share = (ways / ways[-1])[:, None]
+    at_rest = (1 - share) * mesh.vertices[one] + share * mesh.vertices[two]
+    return mesh.triangles[triangle, (corner + 2) % 3], at_rest, places
 
 
 def _least_area(arms):
-    """The least area of the triangles between arms that follow each other."""
+    """The least area of the triangles between arms that follow each other, all from one corner."""
     return 0.5 * (arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]).min()
 
 
