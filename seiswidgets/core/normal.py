@@ -1,5 +1,7 @@
 """The normal equations of a nonlinear least squares problem, put together quickly time after time."""
 
+from functools import cache
+
 import numpy as np
 
 from seiswidgets.core.cholesky import Cholesky
@@ -49,7 +51,7 @@ def _pairs_within_rows(pointers):
     lengths = np.diff(pointers)
     pairs = [(np.empty(0, np.int64), np.empty(0, np.int64))]
     for length in np.unique(lengths[lengths > 0]):
-        one, other = np.triu_indices(length)
+        one, other = _pairs(int(length))
         start = pointers[:-1][lengths == length].astype(np.int64)[:, None]
         pairs.append(((start + one).ravel(), (start + other).ravel()))
     first, second = zip(*pairs, strict=True)
@@ -60,6 +62,11 @@ def _transposed_product(matrix, vector):
     """J^T r for a CSR matrix: where J is small, SciPy's transpose takes longer than the product."""
     numbers = matrix.data * np.repeat(vector, np.diff(matrix.indptr))
     return np.bincount(matrix.indices, numbers, minlength=matrix.shape[1])
+
+
+@cache
+def _pairs(length):
+    return np.triu_indices(length)
 
 
 class NormalEquations:

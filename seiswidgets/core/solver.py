@@ -151,7 +151,8 @@ class Caution:
 def _descent(equations, terms, vertices, height, triangles, caution, tolerance, curved):
     """The vertices after a step to less energy than this height, what the terms leave there, and if it was full.
 
-    Full is a whole step that was not damped. None if no step leads to less. A step within the tolerance is taken as it is: rounding would hide what it gains.
+    Full is a whole step that was not damped. None if no step leads to less. A step within the tolerance is taken as
+    it is: rounding would hide what it gains.
     """
     allowed = height * (1 + ROUNDING)
     while caution.damping <= MOST_DAMPING:
