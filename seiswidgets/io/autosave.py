@@ -12,8 +12,8 @@ from datetime import datetime
 from pathlib import Path
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.atomic import write_atomically
 from seiswidgets.io.session import Session, open_session
+from seiswidgets.io.writing import write_whole
 
 KEEP = 10
 BEHIND = 0.5  # s: edits that come so close together are saved at once
@@ -182,7 +182,7 @@ def set_aside(path: str | os.PathLike) -> Path | None:
     newest = max(versions)
     copy = path.with_name(f"{path.stem}.before-{newest:06d}{path.suffix}")
     try:
-        write_atomically(copy, versions[newest].read_bytes())
+        write_whole(copy, versions[newest].read_bytes())
     except OSError as error:
         raise DataError(f"{versions[newest]} cannot be set aside: {error}") from error
     return copy

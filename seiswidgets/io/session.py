@@ -12,11 +12,11 @@ from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io import sessionfile
-from seiswidgets.io.atomic import write_atomically
 from seiswidgets.io.document import LARGEST_JSON, check_size
 from seiswidgets.io.picks.lines import FAULT, HORIZON
 from seiswidgets.io.savedpicks import SavedPick, saved, usable
 from seiswidgets.io.sources import SectionSource, section_sha256
+from seiswidgets.io.writing import write_whole
 
 Point = tuple[float, float]
 
@@ -116,7 +116,7 @@ class Session:
         except (TypeError, ValueError) as error:
             raise DataError(f"{path} cannot hold this session: {error}; correct its numbers") from error
         check_size(path, content, LARGEST_JSON)
-        write_atomically(path, content)
+        write_whole(path, content)
 
     @property
     def interpretation(self) -> Interpretation:

@@ -24,13 +24,13 @@ PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.p
 SAVED = """[len(version.session.faults) for version in
     __import__("seiswidgets.io.autosave").io.autosave.found("{0}.json")][:1]"""
 DISK = """exec('''
-from seiswidgets.io import atomic
+from seiswidgets.io import writing
 class Full:
     def __getattr__(self, name):
         return getattr(os, name)
     def replace(self, *names):
         raise OSError(28, "No space left on device")
-atomic.os = Full() if {0} else os
+writing.os = Full() if {0} else os
 ''')"""
 OFFLINE = 10  # seconds
 DROP = "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel._ws.close()"

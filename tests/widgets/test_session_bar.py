@@ -7,7 +7,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
-from seiswidgets.io import atomic
+from seiswidgets.io import writing
 from seiswidgets.io.autosave import found, numbered
 from seiswidgets.widgets.app import RestorationApp
 from tests.widgets.hands import appear, drag_to, draw, keys, press, release
@@ -54,7 +54,7 @@ def full_disk(monkeypatch):
             raise OSError(28, "No space left on device")
         replace(one, other)
 
-    monkeypatch.setattr(atomic.os, "replace", replaced)
+    monkeypatch.setattr(writing.os, "replace", replaced)
     return full
 
 
