@@ -174,7 +174,7 @@ class RestorationApp(Turning, VBox):
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
-        return [self.picker.toolbar, self.status, self.keeper, self.panes, below]
+        return [self.picker.toolbar, self.status, self.keeper, self.panes, below, Names()]
 
     def _tie_parts(self):
         for name in ("interpretation", "fixed"):
