@@ -94,7 +94,9 @@ def test_a_matrix_takes_the_places_of_its_corners(app, tmp_path):
     opener = load(app, tmp_path / "matrix.npy", z_unit="m", x_min="100", z_max="50")
     assert app.section.extent == (100.0, 500.0, 0.0, 50.0)
     assert app.section.velocity is None
-    load(app, tmp_path / "matrix.npy", z_unit="m", x_max="far")
+    load(app, tmp_path / "matrix.npy", z_unit="m", x_min="")
+    assert "x_min must be a finite number, but is ''" in opener.notice.text
+    load(app, tmp_path / "matrix.npy", x_min="0", x_max="far")
     assert "x_max must be a finite number, but is 'far'" in opener.notice.text
     assert app.section.extent == (100.0, 500.0, 0.0, 50.0)
 
