@@ -181,7 +181,14 @@ def _plan(entry):
         weights=entry.optional("weights", _weights, defaults.weights),
         solver=entry.optional("solver", Entry.text, defaults.solver),
         spacing=entry.optional("spacing", Entry.number),
+        max_iterations=entry.optional("max_iterations", _count),
     )
+
+
+def _count(entry):
+    if type(entry.value) is not int or entry.value < 1:
+        raise entry.error("a whole number of 1 or more")
+    return entry.value
 
 
 def _steps(entry):

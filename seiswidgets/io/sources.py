@@ -72,6 +72,11 @@ class SectionSource:
         object.__setattr__(self, "name", os.path.abspath(self.name) if self.kind == FILE else self.name)
         object.__setattr__(self, "choices", MappingProxyType(choices))
 
+    @property
+    def keywords(self) -> dict:
+        """The choices as functions take them, slices and ranges among them."""
+        return {name: _revived(value) for name, value in self.choices.items()}
+
     def open(self) -> Section:
         """The section.
 

@@ -8,6 +8,7 @@ from matplotlib import pyplot as plt
 
 from seiswidgets import plot
 from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
+from seiswidgets.io.choices import OF_SEGY
 from seiswidgets.io.meshes import save_mesh
 from seiswidgets.io.reports import save_report
 from seiswidgets.io.results import save_section
@@ -135,10 +136,8 @@ def _write_segy(app, path):
     """With the headers of the file that the section came from, if that is SEG-Y."""
     source, line = app.source, {}
     if source is not None and source.kind == FILE and Path(source.name).suffix.lower() in (".sgy", ".segy", ".seg"):
-        line = {name: source.choices[name] for name in ("inline", "crossline", "traces") if name in source.choices}
+        line = {name: value for name, value in source.keywords.items() if name in OF_SEGY}
         line |= {"like": source.name, "x0": app.section.x0}
-        if "traces" in line:
-            line["traces"] = slice(*line["traces"])
     save_section(app.restoration, path, **line)
 
 

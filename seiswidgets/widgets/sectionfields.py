@@ -81,8 +81,8 @@ class SectionFields(VBox):
         text = value.strip()
         if name == "number":
             return _line_number(self.fields["line"].value, text)
-        if not text and self.fields[name].placeholder:
-            return None
+        if not text and name == "dx" and name not in self._info.needed:
+            return None  # as the file says
         return asked.number(name, text)
 
     def _ask_line(self, info):

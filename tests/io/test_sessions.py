@@ -19,6 +19,7 @@ PLAN = sw.Plan(
     (sw.Step("unfault", ("F1",)), sw.Step("flatten", ("H2",), datum=950.0), sw.Step("flatten", on=False)),
     sw.Weights(stitch=7.5, edge=1 / 3),
     spacing=70.0,
+    max_iterations=40,
 )
 LOOKS = {("fault", "F1"): {"colour": "#e69f00"}, ("horizon", "H2"): {"colour": "teal", "visible": False}}
 CROSSED = ((0.0, 0.0), (20.0, 20.0), (20.0, 0.0), (0.0, 20.0))
@@ -351,6 +352,7 @@ def test_the_examples_in_the_docs_open(tmp_path, case):
         (lambda d: d["section"]["source"].update(name="exec"), "section.source: the synthetic section must be one of"),
         (lambda d: d["section"]["source"].update(arguments={"dip": [[[[[1]]]]]}), "must be nested no more than 4 deep"),
         (lambda d: d["section"].update(sha256="abc"), "section.sha256 must be a SHA-256"),
+        (lambda d: d["plan"].update(max_iterations=0), "plan.max_iterations must be a whole number of 1 or more"),
         (lambda d: d["picks"].update(faults={}), r"picks.faults must be a list \[...\], but is an object of 0"),
         (lambda d: d["picks"]["faults"][0]["points"].insert(5, [1]), r"picks.faults\[0\].points\[5\] must be a point"),
         (lambda d: d["picks"]["faults"][0]["points"].insert(5, ["1", 2]), r"points\[5\] must be a point"),
