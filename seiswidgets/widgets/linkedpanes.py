@@ -124,19 +124,26 @@ class LinkedPanes(VBox):
         self._readers.append(callback)
 
     def show(self, frame: Frame) -> None:
-        """Draw a frame in both panes, all at once."""
-        with LOCK, held():
-            old, self._frame = self._frame, frame
-            if self.original.section is not frame.restoration.original:
-                self.original.show(frame.restoration.original)
-            self.restored.show(frame.section, moving=frame.moving)
-            if old is None or old.restoration is not frame.restoration:
-                self.original.carry(frame.restoration.maps_to_restored)
-                self.restored.carry(frame.restoration.maps_to_original)
-            if not frame.moving:
-                self._make_room(frame)
-            self._draw_mesh()
-            self._draw_ratio()
+        """Draw a frame in both panes, all at once; but while something moves, the picture does not wait for the map."""
+        with LOCK:
+            with held():
+                self._draw_frame(frame)
+                if not frame.moving:
+                    self._make_room(frame)
+                    self._draw_ratio()
+            if frame.moving:
+                self._draw_ratio()
+
+    def _draw_frame(self, frame):
+        """The sections, the mesh, and how points are carried between them."""
+        old, self._frame = self._frame, frame
+        if self.original.section is not frame.restoration.original:
+            self.original.show(frame.restoration.original)
+        self.restored.show(frame.section, moving=frame.moving)
+        if old is None or old.restoration is not frame.restoration:
+            self.original.carry(frame.restoration.maps_to_restored)
+            self.restored.carry(frame.restoration.maps_to_original)
+        self._draw_mesh()
 
     @observe("restoration")
     def _take_restoration(self, change):
