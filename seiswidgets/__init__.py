@@ -41,6 +41,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "io.sources": ["SectionSource"],
         "io.xarrays": ["displacement", "from_xarray", "to_xarray"],
         "widgets.app": ["RestorationApp"],
+        "widgets.gallery": ["Gallery"],
         "widgets.histogram": ["DeformationHistogram"],
         "widgets.linkedpanes": ["LinkedPanes"],
         "widgets.pane": ["SectionPane"],

@@ -14,6 +14,11 @@ def triangle_areas(vertices, triangles) -> np.ndarray:
     return 0.5 * ((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
 
 
+def edge_keys(edges) -> np.ndarray:
+    """A number for each edge, whichever of its vertices comes first; shape (k,)."""
+    return edges.min(axis=1) << 32 | edges.max(axis=1)
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """A triangle mesh at rest: where its vertices are before any deformation.

@@ -1,5 +1,7 @@
 """The normal equations of a nonlinear least squares problem, put together quickly time after time."""
 
+from functools import cache
+
 import numpy as np
 
 from seiswidgets.core.cholesky import Cholesky
@@ -49,11 +51,22 @@ def _pairs_within_rows(pointers):
     lengths = np.diff(pointers)
     pairs = [(np.empty(0, np.int64), np.empty(0, np.int64))]
     for length in np.unique(lengths[lengths > 0]):
-        one, other = np.triu_indices(length)
+        one, other = _pairs(int(length))
         start = pointers[:-1][lengths == length].astype(np.int64)[:, None]
         pairs.append(((start + one).ravel(), (start + other).ravel()))
     first, second = zip(*pairs, strict=True)
     return np.concatenate(first), np.concatenate(second)
+
+
+def _transposed_product(matrix, vector):
+    """J^T r for a CSR matrix: where J is small, SciPy's transpose takes longer than the product."""
+    numbers = matrix.data * np.repeat(vector, np.diff(matrix.indptr))
+    return np.bincount(matrix.indices, numbers, minlength=matrix.shape[1])
+
+
+@cache
+def _pairs(length):
+    return np.triu_indices(length)
 
 
 class NormalEquations:
@@ -108,23 +121,26 @@ class NormalEquations:
         products = self._gram[number].products(data, factor)
         return np.bincount(self._place[number], products, minlength=len(self._keys))
 
-    def at(self, terms, vertices):
+    def at(self, terms, vertices, residuals):
         """Take in the residuals and Jacobians at these positions.
 
         Parameters
         ----------
         terms : list of terms
             The terms given at first, the moving ones as they are now.
+        vertices : array, shape (n, 2)
+        residuals : list of array
+            Those of the terms.
         """
         moving, gradient, steady = [], np.zeros(len(self._unknown)), []
-        for number, term in enumerate(terms):
+        for number, (term, residual) in enumerate(zip(terms, residuals, strict=True)):
             jacobian = self._constant.get(number)
             if jacobian is None:
                 jacobian = term.jacobian(vertices)
                 if not jacobian.shape[0]:
                     continue
                 (moving if term.pattern == MOVING else steady).append((number, jacobian))
-            gradient += jacobian.T @ term.residual(vertices)
+            gradient += _transposed_product(jacobian, residual)
         self._gradient = gradient[self._coordinates]
         grams = [(Gram(jacobian, self._unknown, self.size), jacobian.data) for _, jacobian in moving]
         self._widen([gram.keys for gram, _ in grams])

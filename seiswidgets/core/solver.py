@@ -43,7 +43,17 @@ class Solution:
 
 def energy(terms, vertices) -> float:
     """The sum of the squared residuals of all terms, in square metres."""
-    return float(sum(np.sum(term.residual(vertices) ** 2) for term in terms))
+    return squared(residuals(terms, vertices))
+
+
+def residuals(terms, vertices) -> list[np.ndarray]:
+    """What each term leaves, in metres times its weight."""
+    return [term.residual(vertices) for term in terms]
+
+
+def squared(left) -> float:
+    """The energy of some residuals."""
+    return float(sum(np.vdot(residual, residual) for residual in left))
 
 
 def held_now(terms, vertices):
@@ -93,17 +103,23 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     vertices, caution = np.array(start, float), Caution()
     terms = held_now(terms, vertices)
     equations = NormalEquations(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
-    energies, converged, iteration = [energy(terms, vertices)], False, 0
+    left = residuals(terms, vertices)
+    energies, converged, iteration = [squared(left)], False, 0
     while not converged and iteration < max_iterations:
-        equations.at(terms, vertices)
+        equations.at(terms, vertices, left)
         curved = len(energies) > 1 and energies[-1] > SLOW * energies[-2]
-        moved, full = _descent(equations, terms, vertices, energies[-1], triangles, caution, tolerance, curved)
-        if moved is None:
+        found = _descent(equations, terms, vertices, energies[-1], triangles, caution, tolerance, curved)
+        if found is None:
             break
+        moved, left, full = found
         converged = full and _farthest(moved - vertices) <= tolerance
-        vertices, iteration = moved, iteration + 1
+        vertices, iteration, before = moved, iteration + 1, terms
         terms = held_now(terms, vertices)
-        energies.append(energy(terms, vertices))
+        left = [
+            residual if term is old else term.residual(vertices)
+            for term, old, residual in zip(terms, before, left, strict=True)
+        ]
+        energies.append(squared(left))
         _report(progress, iteration, energies[-1], vertices)
     return Solution(vertices, terms, iteration, equations.factorisations, converged, tuple(energies))
 
@@ -133,9 +149,10 @@ class Caution:
 
 
 def _descent(equations, terms, vertices, height, triangles, caution, tolerance, curved):
-    """The vertices after a step to less energy than this height, None if there is none; and if it was full, undamped.
+    """The vertices after a step to less energy than this height, what the terms leave there, and if it was full.
 
-    A step within the tolerance is taken as it is: rounding would hide what it gains.
+    Full is a whole step that was not damped. None if no step leads to less. A step within the tolerance is taken as
+    it is: rounding would hide what it gains.
     """
     allowed = height * (1 + ROUNDING)
     while caution.damping <= MOST_DAMPING:
@@ -149,12 +166,14 @@ def _descent(equations, terms, vertices, height, triangles, caution, tolerance, 
         settled = undamped and length == 1 and _farthest(step) <= tolerance
         for _ in range(HALVINGS):
             moved = vertices + length * step
-            if settled or (triangle_areas(moved, triangles).min() > 0 and energy(terms, moved) <= allowed):
-                caution.less()
-                return moved, undamped and length == 1
+            if settled or triangle_areas(moved, triangles).min() > 0:
+                left = residuals(terms, moved)
+                if settled or squared(left) <= allowed:
+                    caution.less()
+                    return moved, left, undamped and length == 1
             length /= 2
         caution.shorter()
-    return None, False
+    return None
 
 
 def _farthest(step):

@@ -118,30 +118,34 @@ def _split(mesh, vertices, splits):
         half_edge = corner_of[(first, second) if forward else (second, first)]
         if half_edge // 3 in gone:
             continue
-        inner = inner if forward else inner[::-1]
         one, two = (first, second) if forward else (second, first)
-        fan, places, at_rest = _fan(mesh, vertices, half_edge, one, two, inner, count)
-        at = (np.vstack([*rest, at_rest]), np.vstack([*moved, places]))
-        if min(triangle_areas(shape, fan).min() for shape in at) <= 1e-9 * mesh.areas[half_edge // 3]:
+        far, at_rest, places = _fan(mesh, vertices, half_edge, one, two, inner if forward else inner[::-1])
+        least = min(_least_area(at_rest - mesh.vertices[far]), _least_area(places - vertices[far]))
+        if least <= 1e-9 * mesh.areas[half_edge // 3]:
             continue
+        chain = np.array([one, *range(count, count + len(inner)), two])
         gone.add(half_edge // 3)
-        fans.append(fan)
-        rest.append(at_rest)
-        moved.append(places)
+        fans.append(np.column_stack([chain[:-1], chain[1:], np.full(len(inner) + 1, far)]))
+        rest.append(at_rest[1:-1])
+        moved.append(places[1:-1])
         count += len(inner)
     kept = np.delete(mesh.triangles, list(gone), axis=0)
     return Mesh(np.vstack(rest), np.vstack([kept, *fans])), np.vstack(moved)
 
 
-def _fan(mesh, vertices, half_edge, one, two, inner, count):
+def _fan(mesh, vertices, half_edge, one, two, inner):
+    """A triangle's far corner, and the chain of places along its opposite edge, at rest and after deformation."""
     triangle, corner = divmod(half_edge, 3)
-    far = mesh.triangles[triangle, (corner + 2) % 3]
-    places = vertices[inner]
-    ways = np.hypot(*np.diff(np.vstack([vertices[one], places, vertices[two]]), axis=0).T).cumsum()
-    share = (ways[:-1] / ways[-1])[:, None]
+    places = vertices[[one, *inner, two]]
+    ways = np.append(0, np.hypot(*np.diff(places, axis=0).T).cumsum())
+    share = (ways / ways[-1])[:, None]
     at_rest = (1 - share) * mesh.vertices[one] + share * mesh.vertices[two]
-    chain = np.concatenate([[one], np.arange(count, count + len(inner)), [two]])
-    return np.column_stack([chain[:-1], chain[1:], np.full(len(chain) - 1, far)]), places, at_rest
+    return mesh.triangles[triangle, (corner + 2) % 3], at_rest, places
+
+
+def _least_area(arms):
+    """The least area of the triangles between arms that follow each other, all from one corner."""
+    return 0.5 * (arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]).min()
 
 
 def outline(mesh: Mesh, vertices, closing: float, finder: TriangleFinder | None = None):
@@ -160,9 +164,9 @@ def outline(mesh: Mesh, vertices, closing: float, finder: TriangleFinder | None 
     -------
     shapely Polygon or MultiPolygon
     """
-    edges = shapely.linestrings(vertices[mesh.boundary])
+    edges = shapely.line_merge(shapely.multilinestrings(shapely.linestrings(vertices[mesh.boundary])))
     grid = 2.0**-30 * np.ptp(vertices, axis=0).max()
-    faces = shapely.get_parts(shapely.polygonize([shapely.union_all(edges, grid_size=grid)]))
+    faces = shapely.get_parts(shapely.polygonize([shapely.union_all([edges], grid_size=grid)]))
     inside = shapely.get_coordinates(shapely.point_on_surface(faces))
     finder = finder or TriangleFinder(vertices, mesh.triangles)
     covered = shapely.union_all(faces[finder(inside) >= 0])

@@ -1,3 +1,5 @@
-"""What the numbers mean: sections, faults, horizons and their restoration."""
+"""What the numbers mean: sections, picks, and the stages of a restoration, in metres of rock."""
 
-from seiswidgets.geology import synthetic as synthetic
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submodules={"synthetic"})

@@ -57,7 +57,7 @@ def _line(name, points, ground):
             f"{ground.spacing:.4g} m; choose a finer spacing, or leave it out"
         )
     _check_onward(name, points, ground)
-    return LineString(points)
+    return ground.simplified(LineString(points)) if ground.quick else LineString(points)
 
 
 def _check_onward(name, points, ground):

@@ -2,12 +2,13 @@
 
 import time
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import shapely
 from shapely import LineString
 
-from seiswidgets.core.mesh import Mesh
+from seiswidgets.core.mesh import Mesh, edge_keys
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
@@ -67,15 +68,18 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     vertices = solution.vertices.copy()
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=vertex_masses(mesh))
     vertices[:, 0] -= drift  # how far the whole moves sideways costs nothing: let it move least
-    off = vertices[level.vertices, 1] - datum
-    report = BedReport(
-        name, length_change([bed], mesh.vertices, vertices), float(np.sqrt(np.mean(off**2)) / ground.section.metres[1])
-    )
-    unmet = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
     seconds = time.perf_counter() - began
-    return staged(
-        "flatten", (name,), ground, mesh, vertices, solution, options, seconds, laid, beds=(report,), unmet=unmet
-    )
+    achieved = partial(_achieved, name, laid, level, vertices, ground)
+    return staged("flatten", (name,), ground, mesh, vertices, solution, options.solver, seconds, laid, achieved)
+
+
+def _achieved(name, laid, level, vertices, ground):
+    """What is reported of the horizon."""
+    off = vertices[level.vertices, 1] - level.datum
+    flatness = float(np.sqrt(np.mean(off**2)) / ground.section.metres[1])
+    report = BedReport(name, length_change([laid.edges], laid.mesh.vertices, vertices), flatness)
+    unmet = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
+    return {"beds": (report,), "unmet": unmet}
 
 
 def _bed(ground, name, pieces, task):
@@ -85,7 +89,7 @@ def _bed(ground, name, pieces, task):
 
 
 def _terms(mesh, bed, level, weights):
-    others = mesh.edges[~np.isin(_keys(mesh.edges), _keys(bed))]
+    others = mesh.edges[~np.isin(edge_keys(mesh.edges), edge_keys(bed))]
     return [
         MeanValue(mesh, weights.mean_value),
         ContourLaplacian(mesh, weights.contour),
@@ -94,11 +98,6 @@ def _terms(mesh, bed, level, weights):
         level,
         AreaBarrier(mesh),
     ]
-
-
-def _keys(edges):
-    edges = np.sort(edges, axis=1)
-    return edges[:, 0] << 32 | edges[:, 1]
 
 
 def _mean_level(ends):

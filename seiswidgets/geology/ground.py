@@ -25,11 +25,14 @@ class Ground:
         As it is today, for its units.
     asked : float or None
         The mesh spacing that the user asked for.
+    quick : bool
+        Whether lines may lose what is small beside the mesh spacing, for a quick look.
     """
 
     outline: object
     section: Section
     asked: float | None
+    quick: bool = False
 
     def __post_init__(self):
         if self.asked:
@@ -45,9 +48,14 @@ class Ground:
         """What counts as met: a tenth of a sample, in metres."""
         return 0.1 * self.section.dz * self.section.metres[1]
 
+    @property
+    def tolerance(self) -> float:
+        """How far a simplified line may lie from itself: a tenth of a sample at most, but for a quick look; metres."""
+        return SIMPLIFIED * self.spacing if self.quick else min(self.slack, SIMPLIFIED * self.spacing)
+
     def simplified(self, line: LineString) -> LineString:
-        """A line without the points that a mesh has no need of: it stays within a tenth of a sample of itself."""
-        return line.simplify(min(self.slack, SIMPLIFIED * self.spacing))
+        """A line without the points that a mesh has no need of."""
+        return line.simplify(self.tolerance)
 
     def mesh(self, lines) -> Mesh:
         """A mesh of the outline that has all lines among its edges."""
@@ -64,7 +72,7 @@ class Ground:
             Faults by name, horizons by name: as many of these as the stage has use for.
         """
         lines = tuple(tuple((name, *(line.wkb for line in pieces)) for name, pieces in kind.items()) for kind in drawn)
-        return self.outline.wkb, self.asked, self.slack, lines
+        return self.outline.wkb, self.asked, self.tolerance, lines
 
     def where(self, point) -> str:
         """A place in the words of the section: with its units."""

@@ -11,7 +11,6 @@ from itertools import pairwise
 import numpy as np
 import shapely
 from shapely import LineString, Point
-from shapely.ops import substring
 
 EXTENSION = 0.2  # of a piece's length: how far it is extended to a fault, and how short an overshoot is
 
@@ -73,20 +72,22 @@ def parts(pieces: Sequence[LineString], faults: Sequence[LineString]) -> list[Pa
 def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1) -> list[Part]:
     """A line in parts, cut where it crosses faults."""
     crossings = sorted(
-        (piece.project(point), number)
-        for number, fault in enumerate(faults)
-        for point in _points(piece.intersection(fault))
+        (piece.project(point), fault)
+        for fault in _near(faults, piece, 0.0)
+        for point in _points(piece.intersection(faults[fault]))
     )
     length = piece.length
+    if not crossings and length > 0:
+        return [Part(piece, (None, None), number)]
     inner = [(way, fault) for way, fault in crossings if 1e-9 * length < way < (1 - 1e-9) * length]
     stops = [(0.0, None), *inner, (length, None)]
     found = []
     for (start, first), (stop, last) in pairwise(stops):
         if stop - start <= 1e-9 * length:
             continue
-        line = substring(piece, start, stop)
+        line = _stretch(piece, start, stop)
         ends = tuple(
-            None if fault is None else _end(line, place, fault, faults[fault], line.coords[place])
+            None if fault is None else _end(line, place, fault, faults[fault], shapely.get_coordinates(line)[place])
             for fault, place in ((first, 0), (last, -1))
         )
         outer = (first is None) != (last is None)
@@ -94,13 +95,25 @@ def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1
     return found
 
 
+def _stretch(line, start, stop):
+    """The stretch of a line between two ways along it: what Shapely's ``substring`` is, without a loop over points."""
+    points = shapely.get_coordinates(line)
+    ways = np.append(0, np.hypot(*np.diff(points, axis=0).T).cumsum())
+    touch = 1e-12 * ways[-1]
+    inner = points[(ways > start + touch) & (ways < stop - touch)]
+    first, last = shapely.get_coordinates(shapely.line_interpolate_point(line, [start, stop]))
+    return LineString(np.vstack([first, inner, last]))
+
+
 def _extended(part, faults):
     """A part with its free ends drawn on to the first fault in reach."""
-    points, ends = list(part.line.coords), list(part.ends)
+    if not faults:
+        return part
+    points, ends = shapely.get_coordinates(part.line), list(part.ends)
     for place in (0, -1):
         end = ends[place] or reached(part.line, place, faults, EXTENSION * part.line.length)
         if end and end.gap > 0:
-            points.insert(0 if place == 0 else len(points), end.point)
+            points = np.insert(points, 0 if place == 0 else len(points), end.point, axis=0)
         elif end:
             points[place] = end.point
         ends[place] = end
@@ -114,13 +127,18 @@ def reached(line: LineString, place: int, faults: Sequence[LineString], reach: f
     ray = LineString([tip, tip + (reach + touch) * direction])
     met = [
         (max(0.0, Point(tip).distance(point)), number, point.coords[0])
-        for number, fault in enumerate(faults)
-        for point in [*_points(ray.intersection(fault)), *_touched(fault, tip, touch)]
+        for number in _near(faults, Point(tip), 2 * (reach + touch))
+        for point in [*_points(ray.intersection(faults[number])), *_touched(faults[number], tip, touch)]
     ]
     if not met:
         return None
     gap, number, point = min(met)
     return _end(line, place, number, faults[number], point, gap if gap > touch else 0.0)
+
+
+def _near(faults, geometry, reach):
+    """Which of the faults come so near."""
+    return np.flatnonzero(shapely.dwithin(np.array(faults, object), geometry, reach)).tolist()
 
 
 def _touched(fault, tip, touch):
@@ -131,7 +149,7 @@ def _touched(fault, tip, touch):
 def _heading(line, place):
     """An end of a line and the direction in which it goes on there, from the last tenth of its length."""
     back = line.interpolate(0.1 if place == 0 else 0.9, normalized=True).coords[0]
-    tip = np.array(line.coords[place])
+    tip = shapely.get_coordinates(line)[place]
     arm = tip - back
     return tip, arm / np.hypot(*arm)
 
@@ -149,7 +167,7 @@ def hanging_side(fault: LineString, place, point) -> int:
     """
     way, reach = fault.project(Point(place)), 1e-3 * fault.length
     before, after = (np.array(fault.interpolate(max(0.0, way + step)).coords[0]) for step in (-reach, reach))
-    along, whole = after - before, np.subtract(fault.coords[-1], fault.coords[0])
+    along, whole = after - before, np.subtract(*shapely.get_coordinates(fault)[[-1, 0]])
     across = along[0] * (point[1] - place[1]) - along[1] * (point[0] - place[0])
     drawn_down = whole[1] > 0 or (whole[1] == 0 and whole[0] > 0)
     dips_right = whole[0] * (1 if drawn_down else -1) >= 0

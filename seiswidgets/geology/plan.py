@@ -1,4 +1,9 @@
-"""What a restoration is to do, as one value: its steps in order, the weights, the mesh; and how it is carried out."""
+"""What a restoration is to do, as one value: its steps in order, the weights, the mesh; and how it is carried out.
+
+A quick look (``Task.coarse``) is the same restoration, but approximate: on a mesh three times as coarse, with lines
+that lose what is small beside its spacing, and in two iterations a step from the look before. Where lines are smooth it
+lies within a few metres of the full one, about one sample.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
@@ -6,6 +11,7 @@ from functools import partial
 
 import numpy as np
 
+from seiswidgets.core.triangulation import DENSITY
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import asked
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
@@ -16,7 +22,8 @@ from seiswidgets.geology.weights import Weights
 
 UNFAULT, FLATTEN = "unfault", "flatten"
 OTHER_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch")}  # that a step has no use for
-COARSE = 2.0  # times the mesh spacing, for a first look: a quarter of the vertices
+COARSE, QUICK = 3.0, 2  # times the mesh spacing, and iterations, of a quick look
+EDGES, VERTICES = 3, 100  # that a quick look's mesh has at least: along each pick, and in all
 
 
 @dataclass(frozen=True)
@@ -65,6 +72,8 @@ class Plan:
     solver : {"gauss-newton", "fixed-point"}
     spacing : float, optional
         Of the mesh, in metres of rock.
+    max_iterations : int, optional
+        Of each step.
 
     Examples
     --------
@@ -79,6 +88,7 @@ class Plan:
     weights: Weights = field(default_factory=Weights)
     solver: str = GAUSS_NEWTON
     spacing: float | None = None
+    max_iterations: int | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "steps", tuple(self.steps))
@@ -116,6 +126,7 @@ class Task:
     interpretation: Interpretation
     fixed: tuple[float, float] | None
     plan: Plan
+    quick: bool = False
 
     @property
     def steps(self) -> list[Step]:
@@ -125,9 +136,20 @@ class Task:
 
     @property
     def coarse(self) -> "Task":
-        """The same on a coarser mesh, for a quick look."""
-        spacing = Restoration(self.section, self.plan.spacing).ground.spacing
-        return replace(self, plan=replace(self.plan, spacing=COARSE * spacing))
+        """The same for a quick look from an earlier one: on a coarser mesh with simpler lines, in few iterations."""
+        ground = Restoration(self.section, self.plan.spacing).ground
+        few = np.sqrt(ground.outline.area * DENSITY / VERTICES)
+        spacing = max(ground.spacing, float(min(COARSE * ground.spacing, few, self._shortest / EDGES)))
+        return replace(self, plan=replace(self.plan, spacing=spacing, max_iterations=QUICK), quick=True)
+
+    @property
+    def _shortest(self):
+        """Length of the shortest fault, or of the longest piece of a horizon if that is less; in metres of rock."""
+        picks = (*self.interpretation.faults, *self.interpretation.horizons)
+        return min((max(map(self._length, _lines(pick))) for pick in picks), default=np.inf)
+
+    def _length(self, line):
+        return float(np.hypot(*np.diff(self.section.to_rock(np.array(line)), axis=0).T).sum())
 
     def restored(
         self,
@@ -135,7 +157,7 @@ class Task:
         progress: Callable[[int, int, float], bool | None] | None = None,
     ) -> Restoration:
         """What the task comes to; stages of an earlier one are taken, or started from."""
-        restoration = Restoration(self.section, self.plan.spacing)
+        restoration = Restoration(self.section, self.plan.spacing, quick=self.quick)
         stages = earlier[1].stages if earlier else ()
         same = self._alike(earlier[0]) if earlier else 0
         for number, step in enumerate(self.steps):
@@ -149,6 +171,7 @@ class Task:
 
     def _made(self, restoration, step, start, progress):
         choices = {"weights": self.plan.weights, "solver": self.plan.solver, "progress": progress, "start": start}
+        choices["max_iterations"] = self.plan.max_iterations
         if step.kind == UNFAULT:
             faults, horizons = self._faults(step), self.interpretation.horizons
             return restoration.unfault(faults, horizons, fixed=self.fixed, **choices)
@@ -182,7 +205,17 @@ class Task:
             ]
             fixed = self.fixed if step.kind == UNFAULT else None
             lines = [(pick.name, *_lines(pick)) for pick in picks]
-            yield step.kind, step.datum, fixed, lines, weights, self.plan.solver, self.plan.spacing
+            yield (
+                step.kind,
+                step.datum,
+                fixed,
+                lines,
+                weights,
+                self.plan.solver,
+                self.plan.spacing,
+                self.plan.max_iterations,
+                self.quick,
+            )
 
 
 def _lines(pick):

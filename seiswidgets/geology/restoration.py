@@ -39,6 +39,8 @@ class Restoration:
         vertices.
     stages : tuple of Stage
         Those made so far.
+    quick : bool
+        Whether lines may lose what is small beside the mesh spacing, for a quick look.
 
     Raises
     ------
@@ -59,6 +61,7 @@ class Restoration:
     original: Section
     spacing: float | None = None
     stages: tuple[Stage, ...] = ()
+    quick: bool = False
 
     def __post_init__(self):
         if not isinstance(self.original, Section):
@@ -166,8 +169,8 @@ class Restoration:
         if not self.stages:
             x_min, x_max, z_min, z_max = self.original.extent
             corners = self.original.to_rock([(x_min, z_min), (x_max, z_max)])
-            return Ground(shapely.box(*corners.ravel()), self.original, self.spacing)
-        return Ground(self.stages[-1].outline, self.original, self.spacing)
+            return Ground(shapely.box(*corners.ravel()), self.original, self.spacing, self.quick)
+        return Ground(self.stages[-1].outline, self.original, self.spacing, self.quick)
 
     def to_restored(self, points) -> np.ndarray:
         """Where points of the original section lie after all stages, NaN outside; in its units, shape (n, 2)."""

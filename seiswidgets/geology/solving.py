@@ -117,6 +117,8 @@ def _triangles_before(mesh, earlier):
     found = np.full(len(mesh.vertices), -1)
     for share in INWARDS:
         missing = np.flatnonzero(found < 0)
+        if not len(missing):
+            break
         found[missing] = earlier.map.source_finder(mesh.vertices[missing] + share * inwards[missing])
     return found
 

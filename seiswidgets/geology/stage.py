@@ -1,7 +1,8 @@
 """One stage of a restoration: a mesh before and after it, and how it carries points and lines along."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 import shapely
@@ -37,8 +38,8 @@ class Stage:
         What the mesh is cut along, before the step.
     ground : Ground
         What the step started from.
-    found : Report
-        What the solver reached; ``report`` adds what asks for the outline.
+    found : callable() -> Report
+        Makes out what the solver reached; ``report`` adds what asks for the outline.
     laid : Blocks or Bed
         The mesh before it was welded, and where the picks lie in it: a later stage of the same task takes it over.
     whole : Stage, optional
@@ -50,7 +51,7 @@ class Stage:
     vertices: np.ndarray
     faults: tuple[LineString, ...]
     ground: Ground
-    found: Report
+    found: Callable[[], Report]
     laid: object
     whole: "Stage | None" = None
 
@@ -66,15 +67,16 @@ class Stage:
     def report(self) -> Report:
         """What the step has achieved, with a word in it where rock has come to lie on other rock.
 
-        Made when it is first read: the overlap takes longer than a picture that follows the mouse may wait.
+        Made when it is first read: pictures that follow the mouse have no time for it.
         """
         if self.whole is not None:
             return self.whole.report
         areas = triangle_areas(self.vertices, self.mesh.triangles)
-        overlap, unmet = max(0.0, float(areas.sum() - self.outline.area)), self.found.unmet
+        found = self.found()
+        overlap, unmet = max(0.0, float(areas.sum() - self.outline.area)), found.unmet
         if overlap > self.ground.slack * self.spacing:
             unmet = (*unmet, f"room: {overlap:.3g} m² of rock lie on other rock{self._place_of_overlap()}")
-        return replace(self.found, overlap=overlap, unmet=unmet)
+        return replace(found, overlap=overlap, unmet=unmet)
 
     def _place_of_overlap(self):
         """Where a triangle lies whose centre another triangle holds as well."""
@@ -135,16 +137,25 @@ class Stage:
         return LineString(moved) if len(moved) > 1 else None
 
 
-def staged(
-    kind, picks, ground, mesh, vertices, solution, options, seconds, laid, faults=(), unmet=(), **reported
-) -> Stage:
-    """The stage that a solution makes."""
+def staged(kind, picks, ground, mesh, vertices, solution, solver, seconds, laid, achieved, faults=()) -> Stage:
+    """The stage that a solution makes.
+
+    Parameters
+    ----------
+    achieved : callable() -> dict
+        What the report says of cut-offs, seams and beds, and which constraints gave way.
+    """
+    found = partial(_found, kind, picks, ground, mesh, vertices, solution, solver, seconds, achieved)
+    return Stage(kind, mesh, vertices, faults, ground, found, laid)
+
+
+def _found(kind, picks, ground, mesh, vertices, solution, solver, seconds, achieved):
     ratio = deformation.area_ratio(mesh, vertices)
     percentiles = deformation.weighted_percentiles(ratio, mesh.areas, PERCENTS)
-    found = Report(
+    return Report(
         kind=kind,
         picks=picks,
-        solver=options.solver,
+        solver=solver,
         vertices=len(mesh.vertices),
         triangles=len(mesh.triangles),
         iterations=solution.iterations,
@@ -156,10 +167,8 @@ def staged(
         area_ratio=dict(zip(PERCENTS, percentiles.tolist(), strict=True)),
         x_unit=ground.section.x_unit,
         z_unit=ground.section.z_unit,
-        unmet=unmet,
-        **reported,
+        **achieved(),
     )
-    return Stage(kind, mesh, vertices, faults, ground, found, laid)
 
 
 def _energy(solution):

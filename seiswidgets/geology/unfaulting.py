@@ -3,13 +3,14 @@
 import time
 from collections import deque
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from shapely import LineString
 
 from seiswidgets.core.contact import Contact, contacts
 from seiswidgets.core.finder import triangle_at
-from seiswidgets.core.mesh import Cut, Mesh
+from seiswidgets.core.mesh import Cut, Mesh, edge_keys
 from seiswidgets.core.rigid import rigid_blocks
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along
@@ -97,30 +98,24 @@ def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Opti
         start = _slid_together(mesh, blocks.stitches, free, terms) if slid else mesh.vertices  # the paper's own start
     adrift = bool(free.all())
     solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where, adrift)
-    seams, gave_way = _seams(blocks, solution, ground)
-    cutoffs, apart = _cutoffs(blocks, solution.vertices, ground)
-    beds = tuple(
-        BedReport(name, length_change(edges, mesh.vertices, solution.vertices)) for name, edges in blocks.beds.items()
-    )
     vertices = solution.vertices
     if adrift:
         vertices = nearest_rigid(mesh.vertices, vertices, vertex_masses(mesh))
     whole, vertices = welded(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
-    found = {"seams": seams, "cutoffs": cutoffs, "beds": beds, "unmet": (*apart, *gave_way)}
-    lines = tuple(blocks.drawing.faults.values())
-    return staged(
-        "unfault",
-        tuple(blocks.drawing.faults),
-        ground,
-        whole,
-        vertices,
-        solution,
-        options,
-        time.perf_counter() - began,
-        blocks,
-        lines,
-        **found,
+    seconds, achieved = time.perf_counter() - began, partial(_achieved, blocks, solution, ground)
+    picks, lines = tuple(blocks.drawing.faults), tuple(blocks.drawing.faults.values())
+    return staged("unfault", picks, ground, whole, vertices, solution, options.solver, seconds, blocks, achieved, lines)
+
+
+def _achieved(blocks, solution, ground):
+    """What is reported of seams, cut-offs and beds."""
+    seams, gave_way = _seams(blocks, solution, ground)
+    cutoffs, apart = _cutoffs(blocks, solution.vertices, ground)
+    beds = tuple(
+        BedReport(name, length_change(edges, blocks.mesh.vertices, solution.vertices))
+        for name, edges in blocks.beds.items()
     )
+    return {"seams": seams, "cutoffs": cutoffs, "beds": beds, "unmet": (*apart, *gave_way)}
 
 
 def _blocks(ground, faults, horizons, task):
@@ -150,8 +145,7 @@ def _meshed_line(name, line, drawing, ground):
 
 def _inner_edges(mesh, line, name, ground):
     along = edges_along(mesh, line, ground.spacing)
-    border = {tuple(sorted(edge)) for edge in mesh.boundary.tolist()}
-    inner = np.array([tuple(sorted(edge)) not in border for edge in along.tolist()], bool)
+    inner = ~np.isin(edge_keys(along), edge_keys(mesh.boundary))
     if not inner.any():
         raise PickError(
             f"fault {name!r} runs along the border of the section near {ground.where(line.coords[0])}, where there is "

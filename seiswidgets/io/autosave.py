@@ -1,6 +1,7 @@
 """Sessions that save themselves: in a thread, a moment behind, the last few versions kept."""
 
 import atexit
+import contextlib
 import logging
 import os
 import re
@@ -12,6 +13,7 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.session import Session, open_session
+from seiswidgets.io.writing import write_whole
 
 KEEP = 10
 BEHIND = 0.5  # s: edits that come so close together are saved at once
@@ -140,26 +142,50 @@ class Autosave:
             older = numbered(self.path)
             number = max(older, default=0) + 1
             session.save(self.path.with_name(f"{self.path.stem}.{number:06d}{self.path.suffix}"))
-            for old in sorted(older)[: max(0, len(older) + 1 - self.keep)]:
-                older[old].unlink(missing_ok=True)
         except DataError as error:
             return error
         except Exception as error:  # noqa: BLE001 - a thread that ends in silence would lose all later work
             return DataError(f"{self.path} cannot be saved: {error}")
         self._saved = session
+        for old in sorted(older)[: max(0, len(older) + 1 - self.keep)]:
+            with contextlib.suppress(OSError):  # an old version that stays does no harm
+                older[old].unlink()
         return None
 
 
 def found(path: str | os.PathLike) -> list[Version]:
-    """The versions that an `Autosave` of that path has left and that can be opened, the newest first."""
+    """The versions that an `Autosave` of that path has left and that can be opened, the newest first.
+
+    A session that was saved under the path itself is the last of them.
+    """
     versions = []
-    for _, saved in sorted(numbered(Path(path)).items(), reverse=True):
+    for saved in [*(file for _, file in sorted(numbered(Path(path)).items(), reverse=True)), Path(path)]:
         try:
             session = open_session(saved, allow_outside=True)  # the section's file is not opened yet
             versions.append(Version(saved, datetime.fromtimestamp(saved.stat().st_mtime).astimezone(), session))
         except OSError:  # DataError is one; or another process deleted it just now
             continue
     return versions
+
+
+def set_aside(path: str | os.PathLike) -> Path | None:
+    """A copy of the newest version, ``<stem>.before-000012.json``, that stays however much is saved; None if none is.
+
+    Raises
+    ------
+    DataError
+        If it cannot be copied.
+    """
+    path, versions = Path(path), numbered(Path(path))
+    if not versions:
+        return None
+    newest = max(versions)
+    copy = path.with_name(f"{path.stem}.before-{newest:06d}{path.suffix}")
+    try:
+        write_whole(copy, versions[newest].read_bytes())
+    except OSError as error:
+        raise DataError(f"{versions[newest]} cannot be set aside: {error}") from error
+    return copy
 
 
 def numbered(path: Path) -> dict[int, Path]:

@@ -7,10 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from seiswidgets.errors import DataError
 
-LARGEST_TEXT = 100 * 2**20  # bytes
-LARGEST_JSON = 16 * 2**20  # about half a million points; as Python values they take ten times as much
+LARGEST_TEXT = 64 * 2**20  # bytes; a horizon of a 3-D survey, exported, is of that order
+LARGEST_JSON = 8 * 2**20  # about 200,000 points; as Python values the worst takes 25 times as much
 LARGEST_NUMBER = 1e12  # beyond any coordinate, and far enough from overflow to compute with
 POINT = re.compile(r"\[\n\s*([-+.\deE]+),\n\s*([-+.\deE]+)\n\s*\]")  # no text holds a line end: JSON escapes it
 REMEDY = "mend that in a text editor, or go back to an earlier copy"
@@ -61,10 +63,30 @@ def read_json(path: Path) -> "Entry":
         raise DataError(f"{path} is not valid JSON: {error}; {REMEDY}") from None
 
 
+def check_size(path: Path, content: bytes, largest: int) -> None:
+    """Refuse, with a DataError, to write what could not be read again."""
+    if len(content) > largest:
+        raise DataError(
+            f"{path} would hold {len(content) / 2**20:.0f} MiB, and only {largest / 2**20:.0f} could be read again; "
+            "keep fewer points in the lines, or fewer picks"
+        )
+
+
+def shortened(text: str, most: int = 600) -> str:
+    """A message without the middle of an endless name in it."""
+    return text if len(text) <= most else f"{text[: most // 2]} ... {text[-most // 2 :]}"
+
+
 def json_text(value) -> str:
     """A value as JSON that a person can read: a point a line, and every number as exact as it is."""
-    text = json.dumps(value, indent=1, allow_nan=False)
+    text = json.dumps(value, indent=1, allow_nan=False, default=_plain_number)
     return POINT.sub(r"[\1, \2]", text) + "\n"
+
+
+def _plain_number(value):
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{value!r} is no number, text or list")
 
 
 def _refused(constant):

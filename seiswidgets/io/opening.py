@@ -132,9 +132,14 @@ def preview(path: str | PathLike) -> SectionInfo:
 
 
 def _existing(path):
-    path = Path(path).expanduser()
-    if not path.is_file():
-        raise DataError(f"{path} is {'a folder' if path.is_dir() else 'not there'}; give the path of a file")
+    try:
+        path = Path(path).expanduser()
+        if not path.is_file():
+            raise DataError(f"{path} is {'a folder' if path.is_dir() else 'not there'}; give the path of a file")
+    except (OSError, RuntimeError, ValueError) as error:  # of names that cannot be a file's, and unknown homes
+        if isinstance(error, DataError):
+            raise
+        raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {error}; correct it") from error
     return path
 
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from seiswidgets import __version__
 from seiswidgets.geology.restoration import Restoration
-from seiswidgets.io.atomic import write_atomically
 from seiswidgets.io.session import Session, open_session
 from seiswidgets.io.sources import npz
+from seiswidgets.io.writing import write_whole
 
 
 @dataclass(frozen=True)
@@ -55,12 +55,12 @@ def replayed(
     restored = session.restore(counted, allow_changed=allow_changed)
     contents = {  # endings that keep them from replacing the session or its section in the same folder
         "-restored.npz": npz(restored.section),
-        "-report.txt": _text(path, session, restored).encode(),
+        "-report.txt": _text(path, session, restored).encode(errors="backslashreplace"),
         "-report.json": _json(path, session, restored).encode(),
     }
     files = tuple(folder / f"{name}{ending}" for ending in contents)
     for file, content in zip(files, contents.values(), strict=True):
-        write_atomically(file, content)
+        write_whole(file, content)
     return Replay(session, restored, files)
 
 

@@ -1,13 +1,16 @@
 """Picks as a session keeps them: everything that was drawn, with its looks, even what cannot be used yet."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import shapely
 
-from seiswidgets.errors import PickError
+from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.io.picks.lines import FAULT, HORIZON, LONG, Points
+
+COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")  # nothing else gets into a page
 
 
 @dataclass(frozen=True)
@@ -23,12 +26,27 @@ class SavedPick:
         "#rrggbb", or the name of a colour.
     visible : bool
         Hidden picks are restored with all the same.
+
+    Raises
+    ------
+    PickError
+        If the name holds half a character.
+    SettingError
+        If the colour is neither.
     """
 
     name: str
     pieces: tuple[Points, ...]
     colour: str | None = None
     visible: bool = True
+
+    def __post_init__(self):
+        if any("\ud800" <= letter <= "\udfff" for letter in self.name):
+            raise PickError(f"the name {self.name!r} holds half a character; rename it")
+        if self.colour is not None and not COLOUR.fullmatch(self.colour):
+            raise SettingError(
+                f"the colour of {self.name!r} must be #rrggbb or the name of one, but is {self.colour!r}"
+            )
 
 
 def saved(pick: Fault | Horizon, looks: dict | None = None) -> SavedPick:

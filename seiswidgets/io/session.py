@@ -12,10 +12,11 @@ from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io import sessionfile
-from seiswidgets.io.atomic import write_atomically
+from seiswidgets.io.document import LARGEST_JSON, check_size
 from seiswidgets.io.picks.lines import FAULT, HORIZON
 from seiswidgets.io.savedpicks import SavedPick, saved, usable
 from seiswidgets.io.sources import SectionSource, section_sha256
+from seiswidgets.io.writing import write_whole
 
 Point = tuple[float, float]
 
@@ -39,7 +40,7 @@ class Session:
     Raises
     ------
     PickError
-        If a fault is not one line.
+        If a fault is not one line, or two faults or two horizons have the same name.
 
     Examples
     --------
@@ -60,6 +61,10 @@ class Session:
     written_by: str = field(default=f"seiswidgets {__version__}", compare=False)
 
     def __post_init__(self):
+        for picks in (self.faults, self.horizons):
+            names = [pick.name for pick in picks]
+            if len(set(names)) < len(names):
+                raise PickError(f"two picks are called {max(names, key=names.count)!r}; give each a name of its own")
         for fault in self.faults:
             if len(fault.pieces) != 1:
                 raise PickError(f"fault {fault.name!r} must be one line, but has {len(fault.pieces)}; give each a name")
@@ -103,10 +108,15 @@ class Session:
         Raises
         ------
         DataError
-            If it cannot be written.
+            If it cannot be written, or is too large to be read again.
         """
         path = Path(path)
-        write_atomically(path, sessionfile.text(self, path.parent).encode())
+        try:
+            content = sessionfile.text(self, path.parent).encode()
+        except (TypeError, ValueError) as error:
+            raise DataError(f"{path} cannot hold this session: {error}; correct its numbers") from error
+        check_size(path, content, LARGEST_JSON)
+        write_whole(path, content)
 
     @property
     def interpretation(self) -> Interpretation:

@@ -8,12 +8,12 @@ from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.weights import Weights
-from seiswidgets.io.document import Entry, json_text, read_json
+from seiswidgets.io.document import Entry, json_text, read_json, shortened
 from seiswidgets.io.savedpicks import SavedPick
 from seiswidgets.io.sources import FILE, SectionSource, relative, resolved
 
 FORMAT, VERSION = "seiswidgets session", 1
-COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")
+DEEPEST = 4  # lists within lists in the choices of a source
 
 
 def _from_version_0(old: dict) -> dict:
@@ -106,7 +106,7 @@ def _made(entry, make, *values, **named):
     try:
         return make(*values, **named)
     except SeiswidgetsError as error:
-        raise DataError(f"{entry.path}: {entry.place}: {error}") from error
+        raise DataError(f"{entry.path}: {entry.place}: {shortened(str(error))}") from error
 
 
 def _source(entry, allow_outside):
@@ -120,12 +120,16 @@ def _source(entry, allow_outside):
 
 
 def _choices(entry):
-    return {name: _choice(entry[name]) for name in entry.members()}
+    return {name: _choice(entry[name], 1) for name in entry.members()}
 
 
-def _choice(entry):
+def _choice(entry, depth):
+    if depth > DEEPEST:
+        raise entry.error(f"nested no more than {DEEPEST} deep")
     if isinstance(entry.value, list):
-        return [_choice(item) for item in entry.items()]
+        return [_choice(item, depth + 1) for item in entry.items()]
+    if isinstance(entry.value, dict):
+        return {name: _choice(entry[name], depth + 1) for name in entry.value}
     if entry.value is None or isinstance(entry.value, bool):
         return entry.value
     if isinstance(entry.value, str):
@@ -150,10 +154,12 @@ def _horizons(entry):
 
 def _named(entry, pieces):
     picks = tuple(
-        SavedPick(
+        _made(
+            pick,
+            SavedPick,
             pick["name"].text(),
             pieces(pick),
-            pick.optional("colour", _colour),
+            pick.optional("colour", Entry.text),
             pick.optional("visible", Entry.flag, True),
         )
         for pick in entry.items()
@@ -166,12 +172,6 @@ def _named(entry, pieces):
     return picks
 
 
-def _colour(entry):
-    if not COLOUR.fullmatch(entry.text()):
-        raise entry.error("#rrggbb or the name of a colour")
-    return entry.text()
-
-
 def _plan(entry):
     defaults = Plan()
     return _made(
@@ -181,7 +181,14 @@ def _plan(entry):
         weights=entry.optional("weights", _weights, defaults.weights),
         solver=entry.optional("solver", Entry.text, defaults.solver),
         spacing=entry.optional("spacing", Entry.number),
+        max_iterations=entry.optional("max_iterations", _count),
     )
+
+
+def _count(entry):
+    if type(entry.value) is not int or entry.value < 1:
+        raise entry.error("a whole number of 1 or more")
+    return entry.value
 
 
 def _steps(entry):

@@ -5,7 +5,6 @@ import inspect
 import io
 import json
 import os
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import partial
@@ -14,11 +13,12 @@ from types import MappingProxyType
 
 import numpy as np
 
-from seiswidgets.errors import DataError, SettingError
+from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
 from seiswidgets.geology import synthetic
 from seiswidgets.geology.history import Survey
 from seiswidgets.geology.section import Section
 from seiswidgets.io import datasets
+from seiswidgets.io.opening import open_section
 
 FILE, SYNTHETIC, DATASET = "file", "synthetic", "dataset"
 NAMES = {  # what a session may call, whatever it says
@@ -35,7 +35,6 @@ NAMES = {  # what a session may call, whatever it says
     DATASET: ("f3", "teapot"),
 }
 MOST_SAMPLES = 4_000_000  # of a synthetic section
-LARGEST_ARRAYS = 2**30  # bytes
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,7 @@ class SectionSource:
     name : str
         The path of the file, the function of `synthetic`, or that of `datasets`.
     choices : dict, optional
-        Keywords it is opened or made with: numbers, texts, True, False, None, and lists of these.
+        Keywords it is opened or made with: numbers, texts, True, False, None, slices, ranges, lists and dicts.
 
     Raises
     ------
@@ -70,8 +69,13 @@ class SectionSource:
                 f"the {self.kind} section must be one of {', '.join(NAMES[self.kind])}, but is {self.name[:60]!r}"
             )
         choices = {name: _plain(name, value) for name, value in self.choices.items()}
-        object.__setattr__(self, "name", str(self.name))
+        object.__setattr__(self, "name", os.path.abspath(self.name) if self.kind == FILE else self.name)
         object.__setattr__(self, "choices", MappingProxyType(choices))
+
+    @property
+    def keywords(self) -> dict:
+        """The choices as functions take them, slices and ranges among them."""
+        return {name: _revived(value) for name, value in self.choices.items()}
 
     def open(self) -> Section:
         """The section.
@@ -104,23 +108,37 @@ def _plain(name, value):
     """A choice as JSON can hold it."""
     if isinstance(value, np.generic):
         value = value.item()
+    if isinstance(value, slice | range):
+        return {type(value).__name__: [_plain(name, part) for part in (value.start, value.stop, value.step)]}
     if isinstance(value, list | tuple):
         return [_plain(name, part) for part in value]
+    if isinstance(value, Mapping):
+        return {str(key): _plain(name, part) for key, part in value.items()}
     if value is None or isinstance(value, bool | int | str) or (isinstance(value, float) and np.isfinite(value)):
         return value
     raise SettingError(
-        f"{name} must be a finite number, a text, True, False, None or a list of these to be kept in a session, but is "
-        f"{value!r}"
+        f"{name} must be a finite number, a text, True, False, None, a slice, a range, or a list or dict of these, to "
+        f"be kept in a session, but is {value!r}"
     )
+
+
+def _revived(value):
+    """A slice or a range from how JSON holds it; other values as they are."""
+    for kind in (slice, range):
+        if isinstance(value, dict) and list(value) == [kind.__name__] and isinstance(value[kind.__name__], list):
+            parts = value[kind.__name__]
+            if len(parts) == 3 and all(part is None or type(part) is int for part in parts):
+                return kind(*parts)
+    return value
 
 
 def _called(function, choices, *arguments):
     try:
         inspect.signature(function).bind(*arguments, **choices)
         return function(*arguments, **choices)
+    except SeiswidgetsError:
+        raise
     except (TypeError, ValueError) as error:
-        if isinstance(error, SettingError):
-            raise
         raise DataError(f"the section cannot be made with {dict(choices)}: {error}; correct its source") from error
 
 
@@ -135,21 +153,8 @@ def _synthetic(function, **choices):
 
 
 def _open_file(path, **choices):
-    """The one place where a session opens a file. Until files of all kinds can be opened: our own .npz."""
-    if choices or path.suffix.lower() != ".npz":
-        raise DataError(f"{path} cannot be opened; a section must be in a .npz file, and takes no choices")
-    try:
-        with zipfile.ZipFile(path) as archive:
-            size = sum(part.file_size for part in archive.infolist())
-        if size > LARGEST_ARRAYS:
-            raise DataError(f"{path} would need {size / 2**20:.0f} MiB; a section may have {LARGEST_ARRAYS // 2**20}")
-        with np.load(path, allow_pickle=False) as arrays:
-            amplitude = arrays["amplitude"]
-            return Section(amplitude, **{name: arrays[name].item() for name in arrays.files if name != "amplitude"})
-    except (OSError, KeyError, TypeError, ValueError, zipfile.BadZipFile) as error:
-        if isinstance(error, DataError):
-            raise
-        raise DataError(f"{path} cannot be opened as a section: {error}") from error
+    """The one place where a session opens a file."""
+    return open_section(path, **{name: _revived(value) for name, value in choices.items()})
 
 
 def npz(section: Section) -> bytes:

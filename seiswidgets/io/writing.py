@@ -1,11 +1,12 @@
 """Files out, whole or not at all."""
 
+import contextlib
 import os
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import mkdtemp
 
-from seiswidgets.errors import DataError, SettingError
+from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
 
 
 def checked_path(path, suffixes: tuple[str, ...]) -> Path:
@@ -24,7 +25,7 @@ def checked_path(path, suffixes: tuple[str, ...]) -> Path:
 
 @contextmanager
 def written(path: Path):
-    """A place to write a file's content to; what stood at the path is replaced only when all of it is there.
+    """A place to write a file's content to; what stood at the path is replaced only when all of it is on the disk.
 
     Raises
     ------
@@ -36,14 +37,33 @@ def written(path: Path):
         draft = folder / path.name
         try:
             yield draft
+            _settle(draft)
             os.replace(draft, path)
         finally:
             draft.unlink(missing_ok=True)
             folder.rmdir()
-    except OSError as error:
-        if isinstance(error, DataError):
+    except (OSError, ValueError) as error:  # ValueError: a name that cannot be a file's
+        if isinstance(error, SeiswidgetsError):
             raise
+        reason = getattr(error, "strerror", None) or error
         raise DataError(
-            f"{path} cannot be written: {error.strerror or error}; choose a folder that exists, with room, and of "
-            "your own. What stood there is unchanged"
+            f"{path} cannot be written: {reason}; make room, or choose a folder that exists and that you may write to. "
+            "What stood there is unchanged"
         ) from error
+    with contextlib.suppress(OSError):
+        _settle(path.parent)  # lets the move itself survive a power cut, where the system can do that
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file as `written` does."""
+    with written(path) as draft:
+        draft.write_bytes(content)
+
+
+def _settle(path):
+    """Wait until a file or folder is on the disk."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

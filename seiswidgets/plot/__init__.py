@@ -12,7 +12,9 @@ window : (x_min, x_max, z_min, z_max), optional
     The part that is shown, in the section's units; all of it if left out.
 """
 
-from seiswidgets.plot.figures import deformation, workflow
-from seiswidgets.plot.pictures import mesh, restoration, section
+import lazy_loader
 
-__all__ = ["deformation", "mesh", "restoration", "section", "workflow"]
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={"figures": ["deformation", "workflow"], "pictures": ["mesh", "restoration", "section"]},
+)

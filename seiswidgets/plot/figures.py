@@ -11,6 +11,7 @@ from seiswidgets.core.deformation import area_ratio_histogram, colour_span, weig
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.plot.frame import WIDTH, Window, framed
+from seiswidgets.plot.palette import AREA_RATIO
 from seiswidgets.plot.pictures import (
     DONE,
     amplitude_limit,
@@ -21,8 +22,6 @@ from seiswidgets.plot.pictures import (
     titled,
     up_to,
 )
-
-COLOURS = "RdBu_r"  # red is compression, blue dilatation; told apart by the colour-blind too
 
 
 def deformation(
@@ -129,7 +128,7 @@ def _draw_deformation(ax, histogram, restored, interpretation, frame, span):
     percentiles = weighted_percentiles(stage.area_ratio, stage.mesh.areas, (1, 50, 99))
     span = colour_span(stage.area_ratio, stage.mesh.areas) if span is None else span
     bins, shares = area_ratio_histogram(stage.area_ratio, stage.mesh.areas, span=span)
-    colours = ScalarMappable(LogNorm(1 / span, span), COLOURS)
+    colours = ScalarMappable(LogNorm(1 / span, span), AREA_RATIO)
     _draw_map(ax, restored, interpretation, colours)
     frame.put_on(ax, f"deformation by {DONE[stage.kind]}")
     _draw_histogram(histogram, bins, shares, colours)

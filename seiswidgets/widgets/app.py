@@ -1,44 +1,46 @@
 """The restoration app: draw, restore, look."""
 
 import logging
-from base64 import b64encode
-from io import BytesIO
+from os import PathLike
 
 import numpy as np
 from ipywidgets import GridBox, Layout, Tab, VBox
-from matplotlib.figure import Figure
 from traitlets import Any, Bool, Instance, Tuple, link, observe, validate
 
-from seiswidgets import plot
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan, Task
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.weights import Weights
+from seiswidgets.io.sources import SectionSource
 from seiswidgets.widgets.controls import DisplayControls, SolverControls
+from seiswidgets.widgets.filepanel import FilePanel
 from seiswidgets.widgets.frame import Frame
 from seiswidgets.widgets.histogram import DeformationHistogram
 from seiswidgets.widgets.linkedpanes import LinkedPanes
+from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.picker import Picker
 from seiswidgets.widgets.reports import Reports
 from seiswidgets.widgets.restorer import REST, Restorer
+from seiswidgets.widgets.sessionbar import SessionBar
 from seiswidgets.widgets.statusbar import StatusBar
 from seiswidgets.widgets.steplist import StepList
 from seiswidgets.widgets.timeline import Timeline
+from seiswidgets.widgets.turning import Turning
 from seiswidgets.widgets.weightsliders import WeightSliders
 from seiswidgets.widgets.worker import Worker
 
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
 CHANGED = "Something has changed since: press Restore."
-TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report")
+TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report", "File")
 SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
 
 _log = logging.getLogger(__name__)
 
 
-class RestorationApp(VBox):
+class RestorationApp(Turning, VBox):
     """Draw faults and horizons on a section, restore it, and look at what that took.
 
     On the left is the section of today, on the right the restored one; lines can be drawn in either. While something
@@ -53,6 +55,12 @@ class RestorationApp(VBox):
         A point in the block that stays where it is.
     height : int
         Of each pane, in css pixels.
+    session : path, optional
+        A file ``folder/name.json`` to keep the work in: it is saved there after every edit (as `Autosave` does), and
+        earlier work that is found there is offered. If left out, no file is written until one is chosen in the tab
+        File.
+    source : SectionSource, optional
+        Where the section comes from. If left out, a session keeps the section beside it.
     **settings
         Initial values of the other attributes.
 
@@ -67,6 +75,10 @@ class RestorationApp(VBox):
         Whether every change restores by itself; if not, the button does.
     restoration : Restoration
         The newest on the full mesh. All may be set, and observed.
+    section : Section
+        May be set: picks that lie on the new one too are kept, others go, and there is nothing to undo.
+    session_path : Path or None
+        Where the work is kept; may be set.
     panes, picker, histogram, sliders, timeline : LinkedPanes, Picker, DeformationHistogram, WeightSliders, Timeline
         The parts.
 
@@ -74,6 +86,8 @@ class RestorationApp(VBox):
     ------
     SettingError
         If a setting is out of its range, or a restoration of another section is set.
+    DataError
+        If the session's folder is not there, or what was drawn on an earlier section cannot be saved.
     """
 
     interpretation = Instance(Interpretation, ())
@@ -90,24 +104,21 @@ class RestorationApp(VBox):
         *,
         fixed: tuple[float, float] | None = None,
         height: int = 400,
+        session: str | PathLike | None = None,
+        source: SectionSource | None = None,
         **settings,
     ):
         settings = {"steps": Plan().steps, "restoration": Restoration(section), **settings}
+        picks = {"interpretation": interpretation or Interpretation(), "fixed": fixed}
         self._ready = self._pressed = False
-        self._make_parts(section, height)
+        self.source = source
+        self._make_parts(section, picks, height)
         self._restorer, self._moments = Restorer(self._draw, self.status.tell, self._fail), Worker()
-        super().__init__(self._placed(), **settings)
+        super().__init__(self._placed(), **picks, **settings)
         self._tie_parts()
-        if interpretation is not None:
-            self.interpretation = interpretation
-        self.fixed = fixed
         self._ready = True
         self._restore_soon()
-
-    @property
-    def section(self) -> Section:
-        """That is restored."""
-        return self.panes.original.section
+        self.session_path = session
 
     @property
     def plan(self) -> Plan:
@@ -127,17 +138,21 @@ class RestorationApp(VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all that is under way is done, as a script may want; False if that took too long."""
-        return self._restorer.wait(timeout) and self._moments.wait(timeout)
+        return all(part.wait(timeout) for part in (self.files, self.keeper, self._restorer, self._moments))
 
     def close(self) -> None:
-        """Stop what is under way, and take the app off the screen."""
+        """Stop what is under way, save what is not saved yet, and take the app off the screen."""
         self._restorer.cancel()
         self._moments.cancel()
-        super().close()
+        self.files.end()
+        try:
+            self.keeper.end()
+        finally:
+            super().close()
 
-    def _make_parts(self, section, height):
+    def _make_parts(self, section, picks, height):
         self.panes = LinkedPanes(section, height=height, deformation=0.5)
-        self.picker = Picker(self.panes.original)
+        self.picker = Picker(self.panes.original, **picks)
         self.picker.attach(self.panes.restored, self.panes.sight)
         self.histogram = DeformationHistogram()
         self.sliders = WeightSliders()
@@ -146,18 +161,20 @@ class RestorationApp(VBox):
         self.timeline = Timeline()
         self.status = StatusBar(self.restore, self.cancel)
         self.reports = Reports()
+        self.keeper = SessionBar(self)
+        self.files = FilePanel(self)
 
     def _placed(self):
         """The parts in their places."""
         display = DisplayControls(self.panes)
-        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports)
+        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports, self.files)
         tabs = Tab(pages, titles=TABS, layout=Layout(min_width="0"))
         below = GridBox(
             [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), tabs],
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
-        return [self.picker.toolbar, self.status, self.panes, below]
+        return [self.picker.toolbar, self.status, self.keeper, self.panes, below, Names()]
 
     def _tie_parts(self):
         for name in ("interpretation", "fixed"):
@@ -217,7 +234,7 @@ class RestorationApp(VBox):
         else:
             self._show_whole(frame, restoration)
         self.picker.complain({})
-        self.picker.refresh()
+        self.picker.redraw()
         self.status.hint("")
         self._set_outdated(False)
         ratio = frame.ratio_before.ratio.ravel() if frame.restoration.stages else []
@@ -270,7 +287,7 @@ class RestorationApp(VBox):
             self.panes.show(self._whole)
         else:
             self.panes.show(Frame.of(restoration.at(time), moving=True))
-        self.picker.refresh()
+        self.picker.redraw()
 
     def _mark(self, reading):
         ratio = reading.ratio if reading else np.nan
@@ -279,14 +296,4 @@ class RestorationApp(VBox):
     def _repr_mimebundle_(self, **kwargs):
         """Beside the app itself a picture of what it shows, for readers without a kernel."""
         bundle = super()._repr_mimebundle_(**kwargs)
-        return bundle and {**bundle, "image/png": self._picture()}
-
-    def _picture(self):
-        """A PNG of both sections with their picks, in base 64."""
-        sections = [plot.section] + [plot.restoration] * bool(self.restoration.stages)
-        figure = Figure(figsize=(7 * len(sections), 4.2), layout="constrained")
-        for draw, ax in zip(sections, figure.subplots(1, len(sections), squeeze=False)[0], strict=True):
-            draw(self.section if draw is plot.section else self.restoration, self.interpretation, ax)
-        file = BytesIO()
-        figure.savefig(file, format="png", dpi=80)
-        return b64encode(file.getvalue()).decode()
+        return bundle and {**bundle, "image/png": self.panes.still()}

@@ -8,7 +8,6 @@ from PIL import Image
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.section import Section
-from seiswidgets.plot.frame import OUTSIDE
 
 NAMES = {"greys": "gray", "red-white-blue": "RdBu"}  # all others go by matplotlib's own names
 SAMPLE = 1_000_000  # amplitudes that a percentile is taken of, about
@@ -39,7 +38,7 @@ class Colouring:
     def palette(self) -> np.ndarray:
         """Red, green, blue and opacity of each level, shape (256, 4), uint8; where there are no data, transparent."""
         colours = colour_map(self.name)(np.linspace(0, 1, 255))
-        return np.rint(255 * np.vstack([mpl.colors.to_rgba(OUTSIDE, 0), colours])).astype(np.uint8)
+        return np.rint(255 * np.vstack([np.zeros(4), colours])).astype(np.uint8)
 
 
 def colour_map(name: str) -> mpl.colors.Colormap:

@@ -2,7 +2,7 @@
 
 import math
 
-from ipywidgets import BoundedFloatText, Button, Dropdown, FloatLogSlider, FloatSlider, HBox, Layout, VBox
+from ipywidgets import BoundedFloatText, Button, Checkbox, Dropdown, FloatLogSlider, FloatSlider, HBox, Layout, VBox
 from traitlets import Enum, Float, observe
 
 from seiswidgets.geology.restoration import Restoration
@@ -37,6 +37,7 @@ class DisplayControls(VBox):
             (first, "exaggeration", BoundedFloatText(min=0.01, max=1000, step=0.1, description="vertical exagg. (×)")),
             (panes, "deformation", FloatSlider(min=0, max=1, step=0.05, description="deformation")),
             (panes, "mesh", FloatSlider(min=0, max=1, step=0.05, description="mesh")),
+            (panes, "zoom_linked", Checkbox(description="both panes zoom together", indent=False)),
         ]
         for owner, name, widget in rows:
             widget.layout, widget.style = WIDE, STYLE
@@ -83,7 +84,8 @@ class SolverControls(VBox):
         self._show()
 
     def _on_slider(self, change):
-        if not self._quiet:
+        moved = abs(math.log10(change.new) - math.log10(self.spacing or self._middle))
+        if not self._quiet and moved > 0.501 * self._slider.step:  # else the page has but rounded what it was given
             self.spacing = change.new
 
     @observe("spacing")

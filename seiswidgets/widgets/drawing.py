@@ -8,6 +8,7 @@ import numpy as np
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.section import Section
 
 FAULT, HORIZON = "fault", "horizon"
 LETTERS = {FAULT: "F", HORIZON: "H"}
@@ -199,15 +200,24 @@ class Drawing:
 
     def with_interpretation(self, interpretation: Interpretation) -> "Drawing":
         """With the picks of an interpretation instead; those that had the same name keep their looks."""
-        looks = {(pick.kind, pick.name): pick for pick in self.picks}
+        looks = {(pick.kind, pick.name): (pick.colour, pick.visible) for pick in self.picks}
         drawing = replace(self, picks=())
         for kind, picks in ((FAULT, interpretation.faults), (HORIZON, interpretation.horizons)):
             for pick in picks:
                 pieces = (pick.points,) if kind == FAULT else pick.pieces
-                fresh = Pick(kind, pick.name, (), drawing._colour(kind))
-                new = replace(looks.get((kind, pick.name), fresh), pieces=tuple(_points(piece) for piece in pieces))
-                drawing = replace(drawing, picks=(*drawing.picks, new))
+                drawing = drawing.with_pick(kind, pick.name, pieces, *looks.get((kind, pick.name), ()))
         return drawing
+
+    def with_pick(self, kind: str, name: str, pieces, colour: str | None = None, visible: bool = True) -> "Drawing":
+        """With one more pick, in a colour of its own if none is given."""
+        new = Pick(kind, name, tuple(map(_points, pieces)), colour or self._colour(kind), visible)
+        return replace(self, picks=(*self.picks, new))
+
+    def lies_on(self, section: Section) -> bool:
+        """Whether no pick, and no held point, lies beyond a section."""
+        points = [point for pick in self.picks for piece in pick.pieces for point in piece]
+        points += [self.fixed] if self.fixed else []
+        return not points or bool(section.contains(points).all())
 
     @property
     def interpretation(self) -> Interpretation:

@@ -9,8 +9,8 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.view import View, Window
 
-PICTURE = 150_000  # samples of a picture while something moves
-RATIOS, RATIOS_MOVING = 60_000, 10_000  # places at which the area ratio is taken
+PICTURE = 50_000  # samples of a picture while something moves
+RATIOS, RATIOS_MOVING = 60_000, 5_000  # places at which the area ratio is taken
 
 
 @dataclass(frozen=True, eq=False)

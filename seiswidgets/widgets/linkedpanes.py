@@ -16,6 +16,7 @@ from seiswidgets.widgets.overlay import Overlay
 from seiswidgets.widgets.pane import SectionPane
 from seiswidgets.widgets.ratiocolours import RatioColouring
 from seiswidgets.widgets.sight import Sight
+from seiswidgets.widgets.still import still
 from seiswidgets.widgets.view import View
 
 BEYOND = 0.005  # of the window: rock that reaches less far beyond it does not make it larger
@@ -108,6 +109,15 @@ class LinkedPanes(VBox):
     def sight(self) -> Sight:
         """How the restored pane sees the section of today."""
         return Sight(self.restored.view, self._frame.restoration)
+
+    def still(self) -> str:
+        """What both panes show in full, as a PNG in base 64."""
+        return still(self._titled())
+
+    def _repr_mimebundle_(self, **kwargs):
+        """Beside the panes themselves a picture of what they show, for readers without a kernel."""
+        bundle = super()._repr_mimebundle_(**kwargs)
+        return bundle and {**bundle, "image/png": self.still()}
 
     def on_reading(self, callback: Callable[[Reading | None], None]) -> None:
         """Call a function with what is under the pointer, None where that is nothing."""

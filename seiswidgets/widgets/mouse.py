@@ -171,7 +171,7 @@ def _vertex_spot(pen, event):
     found = [
         (hit[1], replace(spot, vertex=hit[0]))
         for spot, points in pen.editable()
-        if (hit := vertex_under(event, points, partial(pen.sight.vertex_pixels, fault=spot.kind == FAULT)))
+        if (hit := vertex_under(event, points, partial(pen.sight.vertex_pixels, is_fault=spot.kind == FAULT)))
     ]
     return min(found, key=lambda hit: hit[0])[1] if found else None
 

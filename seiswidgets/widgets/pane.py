@@ -187,7 +187,7 @@ class SectionPane(VBox):
     def _take_section(self, change=None):
         with held():
             self._picture.take(self.section, self._will_move)
-            self._picture.colouring = self._colouring()
+            self._picture.colouring = self.colouring
             self.layer.label = f"{self.section.name or 'seismic section'}; zoom with + and -, 0 fits, arrows pan"
             if self.view.section is not self.section:
                 self.view = self.view.of(self.section)  # which draws it
@@ -214,7 +214,7 @@ class SectionPane(VBox):
     @observe("colours", "clip", "limit", "gain", "polarity")
     def _take_colours(self, change):
         with LOCK:
-            self._picture.colour(self._colouring())
+            self._picture.colour(self.colouring)
             self._picture.draw(self.view)
 
     @observe("overlay", "overlay_opacity")
@@ -276,7 +276,9 @@ class SectionPane(VBox):
                 self._picture.resend(self.view)
             self._picture.sharpen(self.view)
 
-    def _colouring(self):
+    @property
+    def colouring(self) -> Colouring:
+        """How its amplitudes become colours."""
         limit = (self.limit or clip_limit(self.section, self.clip)) / self.gain
         return Colouring(self.colours, limit * self.polarity)
 

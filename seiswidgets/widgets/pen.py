@@ -161,6 +161,11 @@ class Pen:
         """Whether there is an edit to make again."""
         return bool(self._future)
 
+    def forget(self) -> None:
+        """Let what has been done so far be the beginning, which cannot be undone."""
+        self._past.clear()
+        self._future.clear()
+
     def add(self, point: Point, *, free: bool = False, select: bool = True) -> None:
         """Add a vertex to the line under way, or begin one; ``free`` of snapping and following."""
         mode, line = self.state.mode, self.drawing.under_way
@@ -232,6 +237,12 @@ class Pen:
         self.settle()
         if interpretation is not self.interpretation:
             self.edit(self.drawing.with_interpretation(interpretation), self.state.selection)
+
+    def begin(self, drawing: Drawing) -> None:
+        """Start anew with other picks: nothing is under way, selected, or there to be undone."""
+        self._past.clear()
+        self._future.clear()
+        self.state, self.sight = PenState(self.state.mode, drawing), Sight(self.view)
 
     def change(self, **changes) -> None:
         """Change the state, and what must go with it; not an edit by itself."""

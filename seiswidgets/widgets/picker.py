@@ -4,14 +4,14 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from ipywidgets import Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
+from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
 from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.canvas import LOCK
-from seiswidgets.widgets.drawing import HORIZON
+from seiswidgets.widgets.drawing import HORIZON, Drawing
 from seiswidgets.widgets.gestures import Gesture, Key, Press, Release
 from seiswidgets.widgets.pane import SectionPane
 from seiswidgets.widgets.pen import Pen
@@ -68,6 +68,8 @@ class Picker(VBox):
         Whether the line between two clicks follows the event.
     dragging : bool
         Whether something is being dragged.
+    drawing : Drawing
+        All that is drawn, with its looks, even what is not valid; it follows, but for a drag, which it waits for.
     """
 
     interpretation = Instance(Interpretation, ())
@@ -77,6 +79,7 @@ class Picker(VBox):
     window = Float(5.0)
     follow = Bool(False)
     dragging = Bool(False)
+    drawing = Instance(Drawing, ())
 
     def __init__(self, section: Section | SectionPane, **settings):
         self.pane = section if isinstance(section, SectionPane) else SectionPane(section)
@@ -90,6 +93,8 @@ class Picker(VBox):
         self.attach(self.pane, lambda: Sight(self.pane.view))
         for name, value in settings.items():
             setattr(self, name, value)
+        self.pen.forget()
+        self.refresh()
 
     def attach(self, pane: SectionPane, sight: Callable[[], Sight]) -> None:
         """Draw in a further pane too, which shows the section in a way of its own."""
@@ -98,24 +103,45 @@ class Picker(VBox):
         pane.on_gesture(lambda gesture: self._handle(gesture, sight))
         self.refresh()
 
+    def begin(self, drawing: Drawing) -> None:
+        """Start anew with other picks, on the section that the pane shows now; there is nothing to undo then."""
+        self.pen.begin(drawing)
+        self._grip, self._complaints = None, {}
+        self._set_snapping()
+        self.refresh()
+
+    def take(self, drawing: Drawing) -> None:
+        """Take other picks, with their looks; that can be undone."""
+        self.pen.edit(drawing)
+        self.refresh()
+
     def complain(self, complaints: dict[str, str]) -> None:
         """Say beside picks, by their names, what is wrong with them."""
         self._complaints = dict(complaints)
         self.list.update(self._wrong())
 
     def refresh(self) -> None:
-        """Show what the pen holds, everywhere."""
+        """Show what the pen holds, everywhere: first on the section of today, at last where the restoration matters."""
         with LOCK:
-            cutoffs = self.pen.cutoffs()
-            for pane, sight in self._panes:
-                seen = sight()
-                pane.draw_lines(strokes(self.pen, seen))
-                pane.draw_marks(marks(self.pen, seen, cutoffs))
-                pane.rubber = rubber(self.pen, seen)
+            self._draw(self._panes[:1])
             self.list.update(self._wrong())
             self._undo.disabled, self._redo.disabled = not self.pen.can_undo, not self.pen.can_redo
             self._finish.disabled = self.pen.drawing.under_way is None
             self._tell()
+            self._draw(self._panes[1:])
+
+    def redraw(self) -> None:
+        """Draw the lines anew in the panes that show the section in a way of their own, as that has changed."""
+        if not self._quiet:  # else they are drawn in a moment anyway
+            self._draw(self._panes[1:])
+
+    def _draw(self, panes):
+        cutoffs = self.pen.cutoffs() if panes else ()
+        for pane, sight in panes:
+            seen = sight()
+            pane.draw_lines(strokes(self.pen, seen))
+            pane.draw_marks(marks(self.pen, seen, cutoffs))
+            pane.rubber = rubber(self.pen, seen)
 
     def _tell(self):
         """Let the traits follow the pen."""
@@ -123,6 +149,8 @@ class Picker(VBox):
         try:
             self.mode, self.dragging = self.pen.state.mode, self.pen.state.drag is not None
             self.fixed = self.pen.drawing.fixed
+            if not self.dragging:
+                self.drawing = self.pen.drawing
             if self.pen.interpretation is not self._told:
                 self.interpretation = self._told = self.pen.interpretation
         finally:
@@ -172,7 +200,7 @@ class Picker(VBox):
         self.refresh()
 
     @observe("snap", "window", "follow")
-    def _set_snapping(self, change):
+    def _set_snapping(self, change=None):
         section, event, window = self.pane.section, self.snap, self.window
         self.pen.snap = self.pen.follow = None
         if event != OFF:
@@ -198,9 +226,12 @@ class Picker(VBox):
         follow = ToggleButton(
             description="Follow", tooltip="lines between two clicks follow the event", layout=Layout(width="auto")
         )
-        for widget, name in ((modes, "mode"), (snap, "snap"), (follow, "follow")):
+        window = BoundedFloatText(
+            min=0.5, max=100, step=0.5, tooltip="samples that a vertex may move to snap", layout=Layout(width="64px")
+        )
+        for widget, name in ((modes, "mode"), (snap, "snap"), (window, "window"), (follow, "follow")):
             tie(self, name, widget)
-        tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, follow])]
+        tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, window, follow])]
         return Box(
             tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 10px")
         )

@@ -6,7 +6,7 @@ import matplotlib as mpl
 import numpy as np
 
 from seiswidgets.core.deformation import LEAST_SPAN, colour_span
-from seiswidgets.plot.figures import COLOURS
+from seiswidgets.plot.palette import AREA_RATIO
 
 FADED = 0.12  # times as opaque is what lies outside the brush
 FADING = 0.6  # power of the distance from 1 that the opacity grows with
@@ -48,7 +48,7 @@ class RatioColouring:
         brush : (low, high), optional
             Area ratios; what lies between is opaque, and what lies outside nearly transparent.
         """
-        colours = np.vstack([np.zeros(4), mpl.colormaps[COLOURS](np.linspace(0, 1, 255))])
+        colours = np.vstack([np.zeros(4), mpl.colormaps[AREA_RATIO](np.linspace(0, 1, 255))])
         level = np.arange(256)
         colours[1:, 3] = (np.abs(level[1:] - 128) / 127) ** FADING
         if brush is not None:

@@ -12,7 +12,7 @@ from seiswidgets.widgets.canvas import LOCK
 from seiswidgets.widgets.frame import Frame
 from seiswidgets.widgets.worker import Worker
 
-BUDGET = 0.25  # seconds that a quick look may take; where it would take longer, there is none
+BUDGET = 0.6  # seconds that a quick look may take; where it would take longer, there is none
 REST = 0.3  # seconds without a change until the full restoration begins
 BETWEEN = 0.08  # seconds between two messages of progress
 
@@ -91,6 +91,11 @@ class Restorer:
         """Give up what is under way."""
         self._worker.cancel()
         self._tell(None)
+
+    def forget(self) -> None:
+        """Give up what is under way, and start nothing from what has been: it was of another section."""
+        self.cancel()
+        self._quick = self._full = None
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all is done; False if that took too long."""

@@ -1,9 +1,11 @@
 """What a pen holds, as the lines and marks that a pane draws."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from seiswidgets.widgets.cutoffmarks import CutOff
-from seiswidgets.widgets.drawing import FAULT, Spot
+from seiswidgets.widgets.drawing import FAULT, Points, Spot
 from seiswidgets.widgets.overlay import Mark, Stroke
 from seiswidgets.widgets.pen import Pen
 from seiswidgets.widgets.penstate import LOOK
@@ -15,20 +17,56 @@ DASH = (6, 4)
 
 
 def strokes(pen: Pen, sight: Sight) -> list[Stroke]:
-    """All visible picks, the line under way, and the way from that to the keyboard cursor."""
-    drawn = [
-        stroke
-        for pick in pen.drawing.picks
-        if pick.visible
-        for number, points in enumerate(pick.pieces)
-        for stroke in _line(pen, sight, Spot(pick.kind, pick.name, number), points, pick.colour)
-    ]
+    """All visible picks, the line under way, and the way from that to the keyboard cursor; then vertices, as dots."""
+    lines = list(_lines(pen))
+    shown = sight.shown([(line.points, line.spot.kind == FAULT) for line in lines])
+    drawn = [line.stroke(seen) for line, seen in zip(lines, shown, strict=True)]
+    open_lines = [line for line in lines if line.is_open]
+    places = sight.vertices([(line.points, line.spot.kind == FAULT) for line in open_lines])
+    return drawn + [line.dots(seen) for line, seen in zip(open_lines, places, strict=True)]
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line to be drawn; open if its vertices can be taken hold of, with the chosen one among them."""
+
+    spot: Spot
+    points: Points
+    colour: str
+    is_selected: bool = False
+    is_open: bool = False
+    chosen: int | None = None
+    dash: tuple = ()
+
+    def stroke(self, seen):
+        label = (self.spot.name or "") if self.spot.piece == 0 else ""
+        return Stroke(seen, self.colour, WIDTHS[self.is_selected], dash=self.dash, label=label)
+
+    def dots(self, seen):
+        alone = np.repeat(seen, 2, axis=0)  # vertices without lines between them
+        alone[1::2] = np.nan
+        chosen = None if self.chosen is None else 2 * self.chosen
+        return Stroke(alone, self.colour, WIDTHS[self.is_selected], dots=True, chosen=chosen)
+
+
+def _lines(pen):
+    for pick in pen.drawing.picks:
+        if pick.visible:
+            for number, points in enumerate(pick.pieces):
+                yield _line(pen, Spot(pick.kind, pick.name, number), points, pick.colour)
     line, cursor = pen.drawing.under_way, pen.state.cursor
     if line:
-        drawn += _line(pen, sight, Spot(line.kind, None, 0), line.points, UNDER_WAY)
+        yield _line(pen, Spot(line.kind, None, 0), line.points, UNDER_WAY)
     if line and cursor and cursor != line.points[-1]:
-        drawn.append(Stroke(sight.shown([line.points[-1], cursor]), UNDER_WAY, 1.5, dash=DASH))
-    return drawn
+        yield _Line(Spot(line.kind, None), (line.points[-1], cursor), UNDER_WAY, dash=DASH)
+
+
+def _line(pen, spot, points, colour):
+    chosen = pen.state.selection
+    is_selected = chosen is not None and (chosen.kind, chosen.name) == (spot.kind, spot.name)
+    is_open = spot.name is None or pen.state.mode == spot.kind or (is_selected and pen.state.mode == LOOK)
+    vertex = chosen.vertex if is_selected and chosen.piece == spot.piece else None
+    return _Line(spot, points, colour, is_selected, is_open, vertex)
 
 
 def marks(pen: Pen, sight: Sight, cutoffs: tuple[CutOff, ...]) -> list[Mark]:
@@ -51,18 +89,3 @@ def rubber(pen: Pen, sight: Sight) -> list[tuple[float, float]]:
         return []
     (start,) = sight.to_pane([pen.rubber_band])
     return [tuple(start.tolist())] if np.isfinite(start).all() else []
-
-
-def _line(pen, sight, spot, points, colour):
-    """A piece of a pick, and its vertices where they can be taken hold of."""
-    chosen = pen.state.selection
-    selected = chosen is not None and (chosen.kind, chosen.name) == (spot.kind, spot.name)
-    label = (spot.name or "") if spot.piece == 0 else ""
-    fault = spot.kind == FAULT
-    yield Stroke(sight.shown(points, fault=fault), colour, WIDTHS[selected], label=label)
-    if spot.name is None or pen.state.mode == spot.kind or (selected and pen.state.mode == LOOK):
-        here = selected and chosen.piece == spot.piece
-        alone = np.repeat(sight.vertices(points, fault=fault), 2, axis=0)  # vertices without lines between them
-        alone[1::2] = np.nan
-        vertex = 2 * chosen.vertex if here and chosen.vertex is not None else None
-        yield Stroke(alone, colour, WIDTHS[selected], dots=True, chosen=vertex)

@@ -7,8 +7,6 @@ Extrema are refined by the parabola through three samples, zero crossings by the
 import numpy as np
 import shapely
 from scipy.ndimage import map_coordinates
-from scipy.signal import find_peaks
-from skimage.graph import route_through_array
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.section import Section
@@ -131,6 +129,8 @@ def _nearest(trace, row, event, window):
 
 def _peaks(trace, least):
     """Fractional samples of the peaks that stand out so far; of clipped ones, the middle."""
+    from scipy.signal import find_peaks  # takes half a second to load, which an app that does not snap can spare
+
     places, found = find_peaks(trace, prominence=least, plateau_size=1)
     before, top, after = trace[places - 1], trace[places], trace[np.minimum(places + 1, len(trace) - 1)]
     middle = (found["left_edges"] + found["right_edges"]) / 2
@@ -148,6 +148,8 @@ def _crossings(trace):
 
 def _route(section, columns, rows, event, window):
     """The fractional sample of an event at each column, along a route near some rows."""
+    from skimage.graph import route_through_array  # as slow to load
+
     strip = _strip(section, columns, rows, window)
     cost = _cost(strip, event)
     middle = len(strip) // 2

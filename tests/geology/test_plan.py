@@ -70,11 +70,39 @@ def test_a_warm_start_comes_to_the_same(task, restored):
     np.testing.assert_allclose(warm.to_restored(points), cold.to_restored(points), atol=another_mesh)
 
 
-def test_the_coarse_task_has_about_a_quarter_of_the_vertices(task):
+def test_the_coarse_task_has_about_a_ninth_of_the_vertices(task):
     coarse = task.coarse.restored()
     fine = task.restored()
     share = len(coarse.stages[1].mesh.vertices) / len(fine.stages[1].mesh.vertices)
-    assert 0.2 < share < 0.35
+    assert 0.08 < share < 0.16
+
+
+def test_the_coarse_task_is_not_too_coarse_for_its_picks(case, task):
+    assert task.coarse.plan.spacing == 180.0
+    top, bottom = case.interpretation.faults[0].points[[0, -1]]
+    short = sw.Fault(np.array([top, top + 300 * (bottom - top) / np.hypot(*(bottom - top))]), "F9")
+    drawn = replace(task, interpretation=sw.Interpretation([short], case.interpretation.horizons))
+    assert drawn.coarse.plan.spacing == pytest.approx(100.0)
+    flat = replace(task, plan=sw.Plan((sw.Step("flatten"),), spacing=400.0))
+    assert flat.coarse.restored().stages[0].spacing == 400.0
+
+
+@pytest.mark.parametrize("name", ["faulted_fold", "listric_fault", "graben"])
+def test_a_quick_look_is_near_the_full_restoration(name):
+    case = getattr(sw.synthetic, name)()
+    task = Task(case.section, case.interpretation, case.fixed, sw.Plan())
+    earlier = task, task.restored()
+    pieces = [piece.copy() for piece in case.interpretation.horizons[0].pieces]
+    pieces[0][-1] += (0, 40)
+    moved = sw.Horizon(*pieces, name=case.interpretation.horizons[0].name)
+    picks = sw.Interpretation(case.interpretation.faults, [moved, *case.interpretation.horizons[1:]])
+    dragged = replace(task, interpretation=picks)
+    quick, full = dragged.coarse.restored(earlier), dragged.restored(earlier)
+    points = np.random.default_rng(0).uniform(*np.reshape(task.section.extent, (2, 2)).T, size=(2000, 2))
+    off = np.hypot(*(quick.to_restored(points) - full.to_restored(points)).T)
+    assert np.nanmedian(off) < 7.5  # metres: a sample and a half
+    assert np.nanpercentile(off, 95) < 15.0
+    assert np.isfinite(off).mean() > 0.99
 
 
 def test_progress_counts_the_steps_and_cancels(task):

@@ -1,6 +1,8 @@
 import json
 import os
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,7 +10,8 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.errors import DataError, PickError, SettingError
 from seiswidgets.io.savedpicks import SavedPick
-from seiswidgets.io.sources import npz, section_sha256
+from seiswidgets.io.sources import _revived, npz, section_sha256
+from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.sections import real_section
 
 SYNTHETIC = sw.SectionSource("synthetic", "faulted_fold", {"throw": 120.0, "horizons": [700.0, 1000.0], "seed": 3})
@@ -16,6 +19,7 @@ PLAN = sw.Plan(
     (sw.Step("unfault", ("F1",)), sw.Step("flatten", ("H2",), datum=950.0), sw.Step("flatten", on=False)),
     sw.Weights(stitch=7.5, edge=1 / 3),
     spacing=70.0,
+    max_iterations=40,
 )
 LOOKS = {("fault", "F1"): {"colour": "#e69f00"}, ("horizon", "H2"): {"colour": "teal", "visible": False}}
 CROSSED = ((0.0, 0.0), (20.0, 20.0), (20.0, 0.0), (0.0, 20.0))
@@ -69,6 +73,17 @@ def test_a_session_comes_back_as_it_was(session, saved):
     assert again.written_by == f"seiswidgets {sw.__version__}"
 
 
+def test_a_line_of_a_volume_is_opened_again_with_its_choices(tmp_path):
+    headers = volume_headers([10, 11], [1, 2, 3, 4])
+    path = tmp_path / "volume.sgy"
+    path.write_bytes(segy_bytes(numbered(headers), headers))
+    section = sw.open_section(path, traces=slice(5, 8), z_unit="m")
+    source = sw.SectionSource("file", str(path), {"traces": slice(5, 8), "z_unit": "m"})
+    sw.Session.of(section, source, sw.Interpretation()).save(tmp_path / "session.json")
+    again = sw.open_session(tmp_path / "session.json").open_section()
+    np.testing.assert_array_equal(again.amplitude, section.amplitude)
+
+
 def test_it_gives_the_same_restoration(case, saved):
     restored = PLAN.restore(case.section, case.interpretation, case.fixed)
     assert_same(restored, sw.open_session(saved[0]).restore())
@@ -110,6 +125,24 @@ def test_lines_that_cannot_be_used_are_kept_and_told_of(session, tmp_path):
         "fault 'F2' crosses itself near x=10, z=1",
         "piece 3 of horizon 'H1' crosses itself n",
     ]
+
+
+def test_what_could_not_be_opened_again_is_not_made(session, tmp_path):
+    with pytest.raises(PickError, match="two picks are called 'H1'"):
+        replace(session, horizons=session.horizons[:1] * 2)
+    with pytest.raises(PickError, match="holds half a character"):
+        SavedPick("\ud800", (CROSSED,))
+    with pytest.raises(SettingError, match="the colour of 'F' must be #rrggbb or the name of one, but is 'url"):
+        SavedPick("F", (CROSSED,), colour="url(x)")
+    with pytest.raises(DataError, match=r"session.json cannot hold this session: .*; correct its numbers"):
+        replace(session, plan=sw.Plan(spacing=float("nan"))).save(tmp_path / "session.json")
+    assert not list(tmp_path.iterdir())
+
+
+def test_numbers_of_numpy_are_kept(session, tmp_path):
+    plan = sw.Plan(weights=sw.Weights(edge=np.float32(0.1)), spacing=np.float64(60))
+    replace(session, plan=plan).save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json").plan == plan
 
 
 def test_a_fault_is_one_line(session):
@@ -178,21 +211,21 @@ def test_paths_cannot_leave_the_folder_unless_allowed(case, saved, tmp_path):
         section = sw.open_session(path, allow_outside=True).open_section()
         assert section_sha256(section) == section_sha256(case.section)
     path = changed(saved, lambda document: document["section"]["source"].update(path="a/../not-there.npz"))
-    with pytest.raises(DataError, match=r"not-there.npz cannot be opened as a section"):
+    with pytest.raises(DataError, match=r"not-there.npz is not there; give the path"):
         sw.open_session(path).open_section()
 
 
 @pytest.mark.parametrize("name", ["a\0b", "\ud800", "x" * 5000])
 def test_paths_that_no_file_can_have_are_refused(saved, name):
     path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": name}))
-    with pytest.raises(DataError, match=r"session.json|cannot be opened"):
+    with pytest.raises(DataError, match=r"session.json|cannot be the path"):
         sw.open_session(path).open_section()
 
 
 def test_nothing_is_unpickled(saved, tmp_path):
     np.savez(tmp_path / "evil.npz", amplitude=np.array([[{}]], dtype=object))
     path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": "evil.npz"}))
-    with pytest.raises(DataError, match=r"evil.npz cannot be opened as a section: .*allow_pickle=False"):
+    with pytest.raises(DataError, match=r"evil.npz holds object, not real numbers"):
         sw.open_session(path).open_section()
 
 
@@ -208,7 +241,7 @@ def test_nothing_is_unpickled(saved, tmp_path):
             "the synthetic section must be one of planar_fault, .* '__import__'",
         ),
         ("dataset", "located", {}, SettingError, "the dataset section must be one of f3, teapot"),
-        ("synthetic", "tilt", {"dip": {}}, SettingError, r"dip must be a finite number, .* but is \{\}"),
+        ("synthetic", "tilt", {"dip": 1j}, SettingError, r"dip must be a finite number, .* but is 1j"),
         ("synthetic", "tilt", {"dip": float("nan")}, SettingError, "dip must be a finite number"),
         ("synthetic", "tilt", {"dip": "steep"}, DataError, "the section cannot be made with {'dip': 'steep'}"),
         (
@@ -227,12 +260,22 @@ def test_nothing_is_unpickled(saved, tmp_path):
             "of 8000000 samples is too large; make dx or dz larger",
         ),
         ("dataset", "f3", {"speed": 3}, DataError, "the section cannot be made with {'speed': 3}"),
-        ("file", "line.sgy", {}, DataError, "line.sgy cannot be opened"),
+        ("file", "line.sgy", {}, DataError, "line.sgy is not there"),
+        ("file", "line.npz", {"traces": {"range": [1, 9, 0]}}, DataError, "the section cannot be made with .*'traces'"),
     ],
 )
 def test_sources_that_make_no_section(kind, name, choices, error, match):
     with pytest.raises(error, match=match):
         sw.SectionSource(kind, name, choices).open()
+
+
+def test_slices_and_ranges_are_kept(session, tmp_path):
+    choices = {"traces": slice(3, None), "lines": range(1, 9, 2), "header_bytes": {"inline": 189}, "extent": (0, 1.5)}
+    source = sw.SectionSource("file", str(tmp_path / "line.sgy"), choices)
+    replace(session, source=source).save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json").source == source
+    kept = {name: _revived(value) for name, value in source.choices.items()}
+    assert kept == {**choices, "extent": [0, 1.5]}
 
 
 # --- versions
@@ -279,6 +322,21 @@ def test_newer_versions_say_so(saved, version):
         sw.open_session(path)
 
 
+def test_the_examples_in_the_docs_open(tmp_path, case):
+    text = (Path(__file__).parents[2] / "docs" / "formats.md").read_text()
+    picks, document = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
+    (tmp_path / "picks.json").write_text(picks)
+    section = replace(case.section, z_unit="ms", velocity=2000.0)
+    assert len(sw.read_picks(tmp_path / "picks.json", section).horizons[0].pieces) == 2
+    (tmp_path / "session.json").write_text(document.replace("64 hexadecimal digits", 64 * "0"))
+    session = sw.open_session(tmp_path / "session.json")
+    assert session.source == sw.SectionSource("file", str(tmp_path / "data" / "line.npz"))
+    assert session.plan == sw.Plan((sw.Step("unfault"),))
+    session.save(tmp_path / "again.json")
+    again, shown = (json.loads((tmp_path / name).read_text()) for name in ("again.json", "session.json"))
+    assert again == {**shown, "written_by": f"seiswidgets {sw.__version__}"}
+
+
 # --- damage
 
 
@@ -292,8 +350,9 @@ def test_newer_versions_say_so(saved, version):
         (lambda d: d["section"].pop("source"), "section lacks 'source'"),
         (lambda d: d["section"]["source"].update(kind="web"), "section.source: a section's source must be"),
         (lambda d: d["section"]["source"].update(name="exec"), "section.source: the synthetic section must be one of"),
-        (lambda d: d["section"]["source"].update(arguments={"dip": {}}), "arguments.dip must be a number"),
+        (lambda d: d["section"]["source"].update(arguments={"dip": [[[[[1]]]]]}), "must be nested no more than 4 deep"),
         (lambda d: d["section"].update(sha256="abc"), "section.sha256 must be a SHA-256"),
+        (lambda d: d["plan"].update(max_iterations=0), "plan.max_iterations must be a whole number of 1 or more"),
         (lambda d: d["picks"].update(faults={}), r"picks.faults must be a list \[...\], but is an object of 0"),
         (lambda d: d["picks"]["faults"][0]["points"].insert(5, [1]), r"picks.faults\[0\].points\[5\] must be a point"),
         (lambda d: d["picks"]["faults"][0]["points"].insert(5, ["1", 2]), r"points\[5\] must be a point"),
@@ -306,7 +365,10 @@ def test_newer_versions_say_so(saved, version):
             lambda d: d["picks"]["faults"].append(d["picks"]["faults"][0]),
             r"faults\[1\].name must be a name that no other",
         ),
-        (lambda d: d["picks"]["faults"][0].update(colour="red;x:url(y)"), r"faults\[0\].colour must be #rrggbb or"),
+        (
+            lambda d: d["picks"]["faults"][0].update(colour="red;x:url(y)"),
+            r"faults\[0\]: the colour of 'F1' must be #rrggbb",
+        ),
         (lambda d: d["picks"]["faults"][0].update(visible=1), r"faults\[0\].visible must be true or false, but is 1"),
         (lambda d: d["picks"].update(fixed=[1, 2, 3]), "picks.fixed must be a point .* but is a list of 3"),
         (

@@ -35,9 +35,12 @@ START, RUN = 60, 60  # seconds that the server may take to start, and anything i
 
 
 class Server:
-    """JupyterLab on 127.0.0.1, at a free port, with a token, with none of the user's settings."""
+    """JupyterLab on 127.0.0.1, at a free port, with a token, with none of the user's settings.
 
-    def __init__(self, folder):
+    Another Python than that of the tests uses the package as it is installed there.
+    """
+
+    def __init__(self, folder, python=sys.executable):
         self.folder, self.token, self.port = folder / "work", secrets.token_hex(16), _free_port()
         self.folder.mkdir()
         settings = folder / "settings"
@@ -47,8 +50,8 @@ class Server:
             name: str(folder / name.lower()) for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
         }
         path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
-        environment = {**os.environ, **home, "PYTHONPATH": path}
-        command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1"]
+        environment = {**os.environ, **home, "PYTHONPATH": path if python == sys.executable else ""}
+        command = [str(python), "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1"]
         command += [f"--port={self.port}", "--ServerApp.port_retries=0", f"--IdentityProvider.token={self.token}"]
         command += [f"--ServerApp.root_dir={self.folder}", f"--LabApp.user_settings_dir={settings}"]
         command += [f"--LabApp.workspaces_dir={folder / 'workspaces'}", "--LabApp.expose_app_in_browser=True"]

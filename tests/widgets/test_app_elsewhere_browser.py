@@ -3,12 +3,8 @@
 import pytest
 
 from tests.widgets.appscreen import EMPTY, SHOWN
+from tests.widgets.byhand import is_painted
 
-PAINTED = """() => {
-  const canvases = [...document.querySelectorAll("canvas.seiswidgets-plot")];
-  return canvases.length === 2 && canvases.every((canvas) =>
-    canvas.width > 100 && canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] === 255);
-}"""
 FAULT = [(0.46, 0.01), (0.53, 0.35), (0.62, 0.7), (0.74, 0.99)]  # shares of the plot area
 
 
@@ -32,7 +28,7 @@ def test_a_fault_is_drawn_in_voila_and_in_notebook_7(elsewhere, place):
         page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").wait_for(state="attached")
         page.locator(".jp-CodeCell .cm-content").first.click()
         page.keyboard.press("Shift+Enter")
-    page.wait_for_function(PAINTED)
+    is_painted(page)
     page.locator("button[data-value=Fault]").click()
     places = fault_places(page)
     for at in places[:-1]:

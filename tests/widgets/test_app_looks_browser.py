@@ -7,6 +7,8 @@ OUT = """() => [...document.querySelectorAll(".jp-OutputArea-output button, .jp-
   .filter((one) => one.offsetParent !== null && one.getBoundingClientRect().right > window.innerWidth)
   .map((one) => one.textContent)"""
 
+OPACITIES = "(canvases) => canvases.map((canvas) => getComputedStyle(canvas).opacity)"
+
 
 def look(screen, state):
     """Every look of a state: nothing is cut off by the window, and every pane is painted for the room it has."""
@@ -66,3 +68,4 @@ def test_every_state_in_every_look(open_app):
     screen.button("Restore").click()
     screen.page.get_by_role("alert").get_by_text("'far'").nth(1).wait_for()
     look(screen, "error")
+    assert screen.page.eval_on_selector_all("canvas.seiswidgets-plot", OPACITIES) == ["1", "0.5"]

@@ -21,7 +21,7 @@ histogram.observe(lambda change: time.sleep({WORK}), "brush")
 histogram
 """
 EDGES = "histogram.bars['edges']"
-LEFT, RIGHT = 46, 10  # css pixels beside the bars
+LEFT, RIGHT = 46, 22  # css pixels beside the bars
 CHART = ".seiswidgets-histogram .chart"
 
 

@@ -158,3 +158,11 @@ def test_all_of_it_by_keyboard(picker):
     assert picker.mode == "fault"
     keys(picker.pane, "Escape", "Escape")
     assert picker.mode == "look"
+
+
+def test_picks_to_start_with_cannot_be_undone(section):
+    picker = Picker(section, interpretation=sw.Interpretation([sw.Fault(FAULT, "F1")]), fixed=(100.0, 100.0))
+    keys(picker.pane, "z", modifiers=["ctrl"])
+    assert [fault.name for fault in picker.interpretation.faults] == ["F1"]
+    assert picker.fixed == (100.0, 100.0)
+    assert picker.toolbar.children[1].children[0].disabled

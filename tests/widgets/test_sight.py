@@ -21,14 +21,14 @@ def sight(case):
 def test_the_original_is_seen_as_it_is(case):
     sight = Sight(View(case.section))
     line = case.interpretation.faults[0].points
-    np.testing.assert_array_equal(sight.shown(line), line)
+    np.testing.assert_array_equal(sight.shown([(line, True)])[0], line)
     np.testing.assert_array_equal(sight.path(line[0], line[-1])[0], line[[0, -1]])
     assert sight.to_original(line[0]) == tuple(line[0])
 
 
 def test_a_line_is_shown_where_its_points_are_restored_to(case, sight):
     line = case.interpretation.horizons[0].pieces[0][:2]
-    shown = sight.shown(line)
+    (shown,) = sight.shown([(line, False)])
     shown = shown[np.isfinite(shown).all(axis=1)]
     ways = np.linspace(0.02, 0.98, 50)[:, None]
     there = sight.to_pane(line[0] + ways * (line[1] - line[0]))
@@ -38,8 +38,23 @@ def test_a_line_is_shown_where_its_points_are_restored_to(case, sight):
 def test_a_line_across_a_fault_is_interrupted_there(case, sight):
     x_min, x_max, z_min, z_max = case.section.extent
     level = (z_min + z_max) / 2
-    shown = sight.shown([(x_min, level), (x_max, level)])
+    (shown,) = sight.shown([([(x_min, level), (x_max, level)], False)])
     assert np.isnan(shown).all(axis=1).sum() == 2  # one in between and one at the end
+
+
+def test_a_fault_is_shown_whole_on_one_of_its_sides(case, sight):
+    fault = case.interpretation.faults[0].points
+    (shown,), (vertices,) = sight.shown([(fault, True)]), sight.vertices([(fault, True)])
+    assert np.isnan(shown).all(axis=1).sum() == 1
+    np.testing.assert_allclose(vertices[0], shown[0], atol=1e-6)
+    np.testing.assert_allclose(vertices[-1], shown[-2], atol=1e-6)
+
+
+def test_many_lines_at_once_are_shown_as_each_alone(case, sight):
+    lines = [(piece, False) for horizon in case.interpretation.horizons for piece in horizon.pieces]
+    for together, line in zip(sight.shown(lines), lines, strict=True):
+        np.testing.assert_array_equal(together, sight.shown([line])[0])
+    assert sight.shown([]) == sight.vertices([]) == []
 
 
 def test_a_path_and_its_way_back_are_the_straight_line(case, sight):

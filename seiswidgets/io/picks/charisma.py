@@ -6,10 +6,9 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines
+from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
 from seiswidgets.io.picks.lines import Found
 from seiswidgets.io.picks.numbers import number, undefined
-from seiswidgets.io.picks.opendtect import rows
 
 
 def read_horizons(path: Path, choices: Choices) -> Found:
@@ -19,7 +18,7 @@ def read_horizons(path: Path, choices: Choices) -> Found:
     ``line="xline 800"``, which need not be given where the file holds only one. Z is undefined from 1e29 on; there, and
     where the other number jumps, a piece ends.
     """
-    nodes = [_horizon_node(path, place, row) for place, row in rows(read_text(path))]
+    nodes = (_horizon_node(path, place, row) for place, row in rows(read_text(path)))
     return Found(horizon_lines(path, nodes, choices))
 
 
@@ -44,7 +43,7 @@ def read_faults(path: Path, choices: Choices) -> Found:
 
     The fault's name may have blanks in it. Sticks are taken from one inline or crossline, as for horizons.
     """
-    nodes = [_fault_node(path, place, row) for place, row in rows(read_text(path))]
+    nodes = (_fault_node(path, place, row) for place, row in rows(read_text(path)))
     return Found(fault_lines(path, nodes, choices))
 
 

@@ -6,10 +6,9 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines
+from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
 from seiswidgets.io.picks.lines import Found
 from seiswidgets.io.picks.numbers import number, undefined
-from seiswidgets.io.picks.opendtect import rows
 
 HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written, nothing that places a pick
 
@@ -28,13 +27,12 @@ def read_faults(path: Path, choices: Choices) -> Found:
 
 
 def _nodes(path):
-    nodes, block = [], 0
+    block = 0
     for place, row in rows(read_text(path)):
         if row.lstrip().startswith("->"):
             block += 1
         elif not row.lstrip().startswith(HEADER):
-            nodes.append(_node(path, place, row, block))
-    return nodes
+            yield _node(path, place, row, block)
 
 
 def _node(path, place, row, block):

@@ -1,7 +1,7 @@
 """What exports of other programs have in common: points on a map, of one seismic line or of many."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -10,9 +10,12 @@ import numpy as np
 import shapely
 
 from seiswidgets.errors import DataError
+from seiswidgets.io.document import shortened
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Line
 
 BESIDE = 0.01  # of the line's length: how far from it a pick may lie
+
+SHOWN = 6  # seismic lines, where a message names those that there are
 
 Along = str | Callable | np.ndarray | list
 
@@ -51,7 +54,14 @@ class Choices:
     x0: float
 
 
-def fault_lines(path: Path, nodes: list[Node], choices: Choices) -> tuple[Line, ...]:
+def rows(text: str) -> Iterator[tuple[str, str]]:
+    """Place and content of the rows that are neither blank nor a comment."""
+    for count, row in enumerate(text.splitlines(), 1):
+        if row.strip() and not row.lstrip().startswith(("#", "!")):
+            yield f"row {count}", row
+
+
+def fault_lines(path: Path, nodes: Iterable[Node], choices: Choices) -> tuple[Line, ...]:
     """A fault a stick, called as it is, with its stick's number where its fault has several on the line."""
     seismic, nodes = _on_one_line(path, nodes, choices.line)
     sticks = _grouped(nodes, lambda node: (node.name, node.part))
@@ -62,7 +72,7 @@ def fault_lines(path: Path, nodes: list[Node], choices: Choices) -> tuple[Line, 
     )
 
 
-def horizon_lines(path: Path, nodes: list[Node], choices: Choices) -> tuple[Line, ...]:
+def horizon_lines(path: Path, nodes: Iterable[Node], choices: Choices) -> tuple[Line, ...]:
     """The pieces of each horizon: one ends where a trace has no pick, or is not the next one."""
     seismic, nodes = _on_one_line(path, nodes, choices.line)
     return tuple(
@@ -73,18 +83,25 @@ def horizon_lines(path: Path, nodes: list[Node], choices: Choices) -> tuple[Line
 
 
 def _on_one_line(path, nodes, line):
-    """The seismic line that is asked for, or else the only one; and its nodes."""
-    if not nodes:
+    """The seismic line that is asked for, or else the only one; and its nodes, the others not kept in memory."""
+    known, possible, kept = {}, None, []
+    for node in nodes:
+        known.update(dict.fromkeys(node.lines) if len(known) < SHOWN else {})
+        possible = list(node.lines) if possible is None else [name for name in possible if name in node.lines]
+        if line is None and not possible:
+            raise DataError(f"{path} holds picks on several seismic lines: {_listed(known)}; choose one by line=")
+        if line is None or line in node.lines:
+            kept.append(node)
+    if possible is None:
         raise DataError(f"{path} holds no picks; export it again")
-    known = list(dict.fromkeys(name for node in nodes for name in node.lines))
-    shown = f"{', '.join(map(repr, known[:5]))}{', ...' if len(known) > 5 else ''}"
-    if line is None:
-        line = next((name for name in nodes[0].lines if all(name in node.lines for node in nodes)), None)
-    if line is None:
-        raise DataError(f"{path} holds picks on {len(known)} seismic lines: {shown}; choose one by line=")
-    if line not in known:
-        raise DataError(f"{path} holds no picks on line={line!r}; there are {shown}")
-    return line, [node for node in nodes if line in node.lines]
+    if not kept:
+        raise DataError(f"{path} holds no picks on line={line!r}; there are {_listed(known)}")
+    return possible[0] if line is None else line, kept
+
+
+def _listed(known):
+    names = shortened(", ".join(map(repr, list(known)[:SHOWN])))
+    return f"{names}, ..." if len(known) >= SHOWN else names
 
 
 def _grouped(nodes: Iterable[Node], key):

@@ -6,10 +6,11 @@ from pathlib import Path
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
-from seiswidgets.io.atomic import write_atomically
+from seiswidgets.io.document import check_size
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
 from seiswidgets.io.picks.exports import Along, Choices
 from seiswidgets.io.picks.lines import Found, Line, in_section_units, interpretation, without_single_points
+from seiswidgets.io.writing import write_whole
 
 OURS = {"geojson": geojson, "csv": table}
 EXPORTS = {
@@ -108,7 +109,7 @@ def write_picks(
     Raises
     ------
     DataError
-        If the file cannot be written.
+        If the file cannot be written, or is too large to be read again.
     SettingError
         If the format is not one of these.
     """
@@ -119,7 +120,8 @@ def write_picks(
         content = text.encode()
     except UnicodeEncodeError as error:
         raise DataError(f"{path}: a name holds half a character, {error.object[error.start]!r}; rename it") from None
-    write_atomically(path, content)
+    check_size(path, content, module.LARGEST)
+    write_whole(path, content)
 
 
 def _format(path, asked, known):

@@ -9,6 +9,7 @@ import shapely
 from seiswidgets.errors import DataError, PickError
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.geology.section import METRES, SECONDS, Section
+from seiswidgets.io.document import shortened
 
 FAULT, HORIZON = "fault", "horizon"
 LONG = 2_000  # points; in a longer line the place of a crossing is not looked for, which takes seconds there
@@ -55,17 +56,18 @@ def interpretation(path: Path, lines: tuple[Line, ...]) -> Interpretation:
 def _pick(path, kind, name, pieces):
     if kind == FAULT and len(pieces) > 1:
         raise DataError(
-            f"{path}: {pieces[1].place} is a second line of fault {name!r}, after {pieces[0].place}; a fault is one "
-            "line, so give each a name of its own"
+            f"{path}: {pieces[1].place} is a second line of fault {shortened(repr(name))}, after {pieces[0].place}; a "
+            "fault is one line, so give each a name of its own"
         )
     for piece in pieces:
         if len(piece.points) > LONG and not shapely.LineString(piece.points).is_simple:
-            raise DataError(f"{path}: {piece.place} crosses or touches itself, as part of {kind} {name!r}; redraw it")
+            shown = shortened(repr(name))
+            raise DataError(f"{path}: {piece.place} crosses or touches itself, as part of {kind} {shown}; redraw it")
     points = [piece.points for piece in pieces]
     try:
         return Fault(points[0], name) if kind == FAULT else Horizon(*points, name=name)
     except PickError as error:
-        raise DataError(f"{path}: {pieces[0].place}: {error}") from error
+        raise DataError(f"{path}: {pieces[0].place}: {shortened(str(error))}") from error
 
 
 def in_section_units(path: Path, found: Found, section: Section) -> tuple[Line, ...]:
@@ -104,6 +106,6 @@ def without_single_points(path: Path, lines: tuple[Line, ...]) -> tuple[Line, ..
     alone = [line.name for line in lines if len(line.points) < 2]
     if alone:
         names = ", ".join(repr(name) for name in dict.fromkeys(alone))
-        message = f"{path}: left out {len(alone)} points that stand alone and make no line, of {names}"
+        message = f"{path}: left out {len(alone)} points that stand alone and make no line, of {shortened(names)}"
         warnings.warn(message, stacklevel=3)  # where read_picks was called
     return tuple(line for line in lines if len(line.points) > 1)

@@ -7,10 +7,11 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines
+from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
 from seiswidgets.io.picks.lines import Found
 from seiswidgets.io.picks.numbers import number, undefined
 
+HEADER = 4000  # characters, in which a header is looked for
 QUOTED = re.compile(r'\s*"([^"]*)"')
 
 
@@ -22,9 +23,9 @@ def read_horizons(path: Path, choices: Choices) -> Found:
     "-"; there, and where trace numbers jump, a piece ends. The header, if there is one, states the unit of z.
     """
     text = read_text(path)
-    header = " ".join(row for row in text.splitlines() if row.lstrip().startswith("#"))
+    header = " ".join(row for row in text[:HEADER].splitlines() if row.lstrip().startswith("#"))
     horizon_alone = "Horizon Name" in header and not re.search("Line name", header, re.IGNORECASE)
-    nodes = [_horizon_node(path, place, row, horizon_alone) for place, row in rows(text)]
+    nodes = (_horizon_node(path, place, row, horizon_alone) for place, row in rows(text))
     unit = re.search(r"\bZ \((\w+)\)", header)
     return Found(horizon_lines(path, nodes, choices), z_unit=unit and unit[1])
 
@@ -47,11 +48,11 @@ def _horizon_node(path, place, row, horizon_alone):
 
 def _names(row):
     """The names in quotes that a row begins with, and the rest of it."""
-    names = []
-    while match := QUOTED.match(row):
+    names, end = [], 0
+    while match := QUOTED.match(row, end):
         names.append(match[1])
-        row = row[match.end() :]
-    return names, row
+        end = match.end()
+    return names, row[end:]
 
 
 def read_faults(path: Path, choices: Choices) -> Found:
@@ -60,7 +61,7 @@ def read_faults(path: Path, choices: Choices) -> Found:
     Stick and node index must have been chosen for the export, and X/Y rather than inline and crossline, unless
     ``along`` is "x" or "y" for these. A fault without a name is called as the file.
     """
-    nodes = [_fault_node(path, place, row) for place, row in rows(read_text(path))]
+    nodes = (_fault_node(path, place, row) for place, row in rows(read_text(path)))
     return Found(fault_lines(path, nodes, choices))
 
 
@@ -75,10 +76,3 @@ def _fault_node(path, place, row):
     x, y, z = (number(path, place, what, text) for what, text in zip("XYZ", values, strict=False))
     line = values[5].strip() if len(values) == 6 else ""
     return Node({line: np.nan}, (names or [path.stem])[0], values[3].strip(), x, y, z, place)
-
-
-def rows(text: str):
-    """Place and content of the rows that are neither blank nor a comment."""
-    for count, row in enumerate(text.splitlines(), 1):
-        if row.strip() and not row.lstrip().startswith(("#", "!")):
-            yield f"row {count}", row

@@ -7,10 +7,11 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import read_text
+from seiswidgets.io.document import LARGEST_TEXT, read_text
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
 from seiswidgets.io.picks.numbers import number
 
+LARGEST = LARGEST_TEXT
 COLUMNS = ("kind", "name", "piece", "x", "z")
 
 
@@ -49,7 +50,7 @@ def _rows(path):
 
 def _columns(path, header):
     """Where the columns are, and the units of x and z."""
-    named = [re.fullmatch(r"\s*(\w+)\s*(?:\((\w+)\))?\s*", title) for title in header]
+    named = [re.fullmatch(r"(\w+) ?(?:\((\w+)\))?", title.strip()) for title in header]
     places = {match[1].lower(): place for place, match in enumerate(named) if match}
     lacking = [column for column in COLUMNS if column not in places]
     if lacking:

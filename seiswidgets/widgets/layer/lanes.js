@@ -3,6 +3,7 @@
 const DRAG_PAUSE = 50; // ms between two messages
 const HOVER_PAUSE = 200;
 const HOVER_MOVES = 18; // to a message while the pointer keeps moving, however slow the browser is
+const LOST = 5000; // ms without an answer after which a message counts as lost with its connection
 const STILL = 100; // ms without a move after which the pointer does not keep moving
 
 // A line of messages of one kind. The next is sent when the kernel has answered the last, and not before a pause; what
@@ -16,7 +17,7 @@ function lane(model, kind, pause, merge = (_, newest) => newest, many = 1) {
   let last = -Infinity;
   const pump = () => {
     timer = null;
-    if (!waiting || !answered) return;
+    if (!waiting || (!answered && performance.now() - last < LOST)) return;
     const left = Math.max(last + pause, merged < many ? newest + STILL : 0) - performance.now();
     if (left > 1) {
       timer = setTimeout(pump, left);

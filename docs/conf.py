@@ -1,0 +1,42 @@
+"""How the pages are made from docs/, notebooks/ and the docstrings: `make docs`."""
+
+import inspect
+
+from traitlets import HasTraits
+
+import seiswidgets
+
+project = "seiswidgets"
+author = "the seiswidgets developers"
+release = seiswidgets.__version__
+extensions = ["myst_nb", "numpydoc", "sphinx.ext.autodoc"]
+
+# The sources start at the project's folder, so that notebooks and CONTRIBUTING.md are pages without being copied.
+root_doc = "docs/index"
+include_patterns = ["docs/**", "notebooks/*.ipynb", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSES.md"]
+exclude_patterns = [".venv", "docs/_build", "notebooks/dashboard.ipynb"]
+
+default_role = "literal"
+myst_heading_anchors = 3
+nb_execution_mode = "off"  # make docs DOCS_ARGS="-D nb_execution_mode=force" draws the notebooks' pictures too
+numpydoc_show_class_members = False
+autodoc_default_options = {"members": True, "member-order": "bysource"}
+autodoc_typehints = "none"  # the docstrings say what is given and in which units
+
+html_theme = "furo"
+html_title = "seiswidgets"
+html_copy_source = False
+
+
+def setup(app):
+    """Tell what widgets are made with, which traitlets hides."""
+    app.connect("autodoc-process-signature", widget_signature)
+
+
+def widget_signature(app, what, name, thing, options, signature, returned):
+    """The signature of a widget's own __init__."""
+    if what != "class" or not issubclass(thing, HasTraits):
+        return None
+    given = inspect.signature(thing.__init__)
+    parameters = [one.replace(annotation=one.empty) for one in list(given.parameters.values())[1:]]
+    return str(given.replace(parameters=parameters)), returned

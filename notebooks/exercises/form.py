@@ -1,0 +1,32 @@
+"""A question as a small form: the answer, a button, and the feedback."""
+
+from html import escape
+
+from ipywidgets import HTML, Button, Layout, RadioButtons, Text, VBox
+
+from exercises.question import Choice, Feedback, Number
+
+RIGHT, NOT_YET = "#009e73", "#d55e00"  # of a border only: told apart by the colour-blind, seen on light and dark
+
+
+def ask(question: Number | Choice) -> VBox:
+    """The form of a question; the same answers can be checked in code, by ``question.check``."""
+    answer, button, feedback = _field(question), Button(description="Check"), HTML(_shown(None))
+    button.on_click(lambda _: setattr(feedback, "value", _shown(question.check(answer.value))))
+    return VBox([HTML(f"<p>{escape(question.asked)}</p>"), answer, button, feedback])
+
+
+def _field(question):
+    if isinstance(question, Choice):
+        return RadioButtons(options=question.options, value=None, description="Answer", layout=Layout(width="auto"))
+    label = f"Answer ({question.unit})" if question.unit else "Answer"
+    return Text(description=label, style={"description_width": "initial"}, layout=Layout(width="16em"))
+
+
+def _shown(feedback: Feedback | None) -> str:
+    """HTML of some feedback, in a place that a screen reader reads out when it changes."""
+    if feedback is None:
+        return '<p role="status"></p>'
+    verdict, colour = ("Right.", RIGHT) if feedback.right else ("Not yet.", NOT_YET)
+    look = f"border-left: 4px solid {colour}; padding-left: 8px; line-height: 1.4"
+    return f'<p role="status" style="{look}"><b>{verdict}</b> {escape(feedback.text)}</p>'

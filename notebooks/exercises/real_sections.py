@@ -1,0 +1,89 @@
+"""Questions of notebook 06: exaggeration, velocity, and what hangs on them."""
+
+from math import atan, degrees, radians, tan
+
+from exercises.question import Choice, Number
+
+
+def dip_on_the_screen(dip: float, exaggeration: float) -> Number:
+    """How steep a fault looks, from its dip (degrees) and the picture's vertical exaggeration."""
+    slope = tan(radians(dip))
+    return Number(
+        f"A fault dips at {dip:.0f}°. How steep does it look in a picture {exaggeration:g} times as tall as true?",
+        degrees(atan(exaggeration * slope)),
+        "°",
+        1.5,
+        "The slope grows as the picture is stretched, not the angle. So all faults look steep, and nearly alike.",
+        (
+            (dip, "It would be so in true proportions."),
+            (exaggeration * dip, "No fault is steeper than 90°: it is the slope, the tangent, that is multiplied."),
+            (degrees(atan(slope / exaggeration)), "So it would look in a picture that is pressed flat."),
+        ),
+        "Multiply the tangent of the dip, and turn it into an angle again.",
+    )
+
+
+def dip_in_rock(ends, velocity: float) -> Number:
+    """The dip of a fault from its ends, rows (x in m, z in ms), and the velocity (m/s)."""
+    (x_top, time_top), (x_bottom, time_bottom) = ends
+    along, time = abs(x_bottom - x_top), abs(time_bottom - time_top)
+
+    def dip(down):
+        return degrees(atan(down / along))
+
+    return Number(
+        f"From its one end to the other, Teapot's fault goes {along:.0f} m sideways and {time:.0f} ms down. What is "
+        f"its dip at {velocity:.0f} m/s?",
+        dip(time * velocity / 2000),
+        "°",
+        1.0,
+        f"{time:.0f} ms there and back are {time * velocity / 2000:.0f} m one way.",
+        (
+            (dip(time), "You took milliseconds for metres; that is right at 2,000 m/s only."),
+            (dip(time * velocity / 1000), "The time is there and back. The depth is half of time by velocity."),
+            (
+                90 - dip(time * velocity / 2000),
+                "That is the angle with the vertical. The dip is counted from the level.",
+            ),
+        ),
+        "Turn the time into metres first: half of it, in seconds, by the velocity.",
+    )
+
+
+def throw_in_metres(throw: float, velocity: float) -> Number:
+    """A throw in metres, from that in ms and the velocity (m/s)."""
+    return Number(
+        f"The throw of mid is {throw:.1f} ms. How many metres is that at {velocity:.0f} m/s?",
+        throw * velocity / 2000,
+        "m",
+        1.0,
+        "Half the time, there and back, by the velocity.",
+        (
+            (throw * velocity / 1000, "The time is there and back: take half."),
+            (throw, "That is the number of milliseconds."),
+            (throw * 2000 / velocity, "A faster rock has more metres to the millisecond, not fewer."),
+        ),
+        "Half the time, in seconds, by the velocity.",
+    )
+
+
+def what_hangs_on_velocity(numbers: dict[float, dict[str, float]]) -> Choice:
+    """Which number follows the velocity, from the numbers found at each velocity."""
+
+    def change(name):
+        values = [each[name] for each in numbers.values()]
+        return max(values) / min(values)
+
+    hints = {
+        "throw in ms": "It is measured in the section as it was recorded: no velocity comes in.",
+        "likeness": f"Look at the figure: it changes by {change('likeness') - 1:.0%}, while the velocity doubles.",
+        "throw in metres": "Look at the figure again: this one follows the velocity.",
+        "none of them": "Look at the figure: one of the three lines is not level.",
+    }
+    answer = max(next(iter(numbers.values())), key=change)
+    return Choice(
+        "Which of these grows in proportion to the velocity that you choose?",
+        answer,
+        "Every length along z does, and with it slopes, areas and strains. Which beds match does not.",
+        tuple((name, hint) for name, hint in hints.items() if name != answer),
+    )

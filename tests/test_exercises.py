@@ -1,0 +1,84 @@
+"""What a question makes of an answer, and the form that asks it; the answers themselves are in test_notebooks."""
+
+from html import escape
+
+import pytest
+from exercises import ask
+from exercises.question import Choice, Number
+
+HEAVE = Number(
+    "How large is the heave?",
+    86.6,
+    "m",
+    1.0,
+    "Two legs of a triangle.",
+    ((150.0, "The throw."), (173.2, "The slip.")),
+    "Draw it.",
+)
+TERM = Choice(
+    "Which term?", "edge length", "It knows sizes.", (("mean value", "Shapes only."), ("contour", "Border only."))
+)
+
+
+@pytest.mark.parametrize("given", [86.6, 87.5, "86", " 86.6 m ", "8.66e1"])
+def test_a_number_is_right_within_its_tolerance(given):
+    assert HEAVE.check(given).right
+    assert HEAVE.check(given).text == "Two legs of a triangle."
+
+
+@pytest.mark.parametrize(("given", "hint"), [(150, "The throw."), ("173 m", "The slip."), (172.5, "The slip.")])
+def test_a_known_mistake_gets_its_hint(given, hint):
+    assert HEAVE.check(given).text == hint
+    assert not HEAVE.check(given).right
+
+
+@pytest.mark.parametrize(
+    ("given", "told"), [(500, "500 m is too large. Draw it."), ("−3", "-3 m is too small. Draw it.")]
+)
+def test_any_other_number_gets_the_general_hint(given, told):
+    assert HEAVE.check(given).text == told
+
+
+@pytest.mark.parametrize("given", ["", "many", "86,6", "nan", "inf", None, "86 ms"])
+def test_what_is_no_number_is_said_to_be_none(given):
+    feedback = HEAVE.check(given)
+    assert not feedback.right
+    assert "is no number. Give one, in m" in feedback.text
+
+
+def test_a_mistake_must_be_told_from_the_answer():
+    with pytest.raises(ValueError, match="cannot be told from the answer 5"):
+        Number("?", 5.0, "m", 1.0, "", ((6.5, "too near"),), "")
+
+
+def test_a_choice_is_right_or_gets_its_hint():
+    assert TERM.check("edge length").right
+    assert TERM.check("contour").text == "Border only."
+    assert not TERM.check("contour").right
+    assert "Choose one of: contour; edge length; mean value" in TERM.check(None).text
+
+
+def test_options_differ():
+    with pytest.raises(ValueError, match="two of the options are the same"):
+        Choice("?", "a", "", (("a", "hint"),))
+
+
+@pytest.mark.parametrize(("question", "right", "wrong"), [(HEAVE, "86.6", "150"), (TERM, "edge length", "contour")])
+def test_the_form_shows_the_feedback(question, right, wrong):
+    _, answer, button, feedback = ask(question).children
+    for given, verdict in ((wrong, "Not yet."), (right, "Right.")):
+        answer.value = given
+        button.click()
+        assert verdict in feedback.value
+        assert question.check(given).text in feedback.value
+
+
+def test_the_form_escapes_what_it_shows():
+    nasty = "<img src=x onerror=alert(1)>"
+    text, answer, button, feedback = ask(Number(nasty, 1.0, "m", 0.1, nasty, (), "")).children
+    assert nasty not in text.value
+    for given in (nasty, "1"):
+        answer.value = given
+        button.click()
+        assert nasty not in feedback.value
+        assert escape(nasty) in feedback.value

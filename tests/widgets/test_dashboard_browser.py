@@ -1,0 +1,57 @@
+"""The dashboard through Voila, as behind Binder's link."""
+
+import re
+import shutil
+
+import pytest
+
+from tests.widgets.browser import IGNORED, ROOT, RUN, SCREENSHOTS
+from tests.widgets.byhand import PICTURES, draw_faulted_fold, is_painted, is_restored
+
+# What Voila's page itself takes from elsewhere, and an extension of Jupyter Notebook, where that is installed too.
+FOREIGN = re.compile("https://cdn|@jupyter-notebook/lab-extension")
+AXES_SEEN = """() => [...document.querySelectorAll(".seiswidgets-layer .label")].every((label) => {
+  const { left, width, top, height } = label.getBoundingClientRect();
+  label.style.pointerEvents = "auto";
+  const seen = document.elementFromPoint(left + width / 2, top + height / 2) === label;
+  label.style.pointerEvents = "";
+  return seen;
+})"""
+
+
+@pytest.fixture
+def dashboard(other_server, chromium):
+    """The page of the dashboard; at the end the console must hold no error."""
+    shutil.copy(ROOT / "notebooks" / "dashboard.ipynb", other_server.folder)
+    context, errors = chromium.new_context(viewport={"width": 1200, "height": 1000}), []
+    page = context.new_page()
+    page.set_default_timeout(RUN * 1000)
+    page.on("console", lambda message: errors.append(_told(message)) if message.type == "error" else None)
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(other_server.address("dashboard.ipynb", "voila/render"))
+    yield page
+    context.close()
+    assert [error for error in errors if not (IGNORED.search(error) or FOREIGN.search(error))] == []
+
+
+def _told(message):
+    return f"{message.text} ({message.location.get('url')})"
+
+
+def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
+    is_painted(dashboard)
+    assert dashboard.evaluate(AXES_SEEN)
+    today = dashboard.evaluate(PICTURES)
+    draw_faulted_fold(dashboard)
+    is_restored(dashboard)
+    assert dashboard.evaluate(PICTURES)[1] != today[1]
+    SCREENSHOTS.mkdir(exist_ok=True)
+    dashboard.screenshot(path=SCREENSHOTS / "dashboard.png")
+
+    dashboard.get_by_label("with an interpreter's picks").check()
+    dashboard.get_by_label("Section").select_option("Graben")
+    dashboard.get_by_text("Two faults, and between them").wait_for()
+    is_painted(dashboard)
+    is_restored(dashboard)
+    assert dashboard.locator("canvas.seiswidgets-plot").count() == 2
+    dashboard.screenshot(path=SCREENSHOTS / "dashboard-graben.png")

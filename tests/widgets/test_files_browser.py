@@ -1,0 +1,205 @@
+"""Files, sessions and what goes wrong, in a JupyterLab driven by mouse and keyboard."""
+
+import os
+import secrets
+import signal
+import time
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from tests.widgets.browser import READY, SCREENSHOTS
+from tests.widgets.files import line
+
+APP = """
+import os, seiswidgets as sw
+case = sw.synthetic.faulted_fold()
+app = sw.RestorationApp(case.section, session="{0}.json", source=sw.SectionSource("synthetic", "faulted_fold"),
+    live=False, height=300)
+app
+"""
+NAMES = "[pick.name for pick in app.picker.drawing.picks]"
+PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
+SAVED = """[len(version.session.faults) for version in
+    __import__("seiswidgets.io.autosave").io.autosave.found("{0}.json")][:1]"""
+DISK = """exec('''
+from seiswidgets.io import writing
+class Full:
+    def __getattr__(self, name):
+        return getattr(os, name)
+    def replace(self, *names):
+        raise OSError(28, "No space left on device")
+writing.os = Full() if {0} else os
+''')"""
+OFFLINE = 10  # seconds
+DROP = "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel._ws.close()"
+
+
+@pytest.fixture
+def name():
+    return f"work-{secrets.token_hex(3)}"
+
+
+@pytest.fixture
+def app(notebook, name):
+    opened = notebook(APP.format(name))
+    ready(opened)
+    return opened
+
+
+def ready(opened):
+    """Wait until the app is painted."""
+    canvas = opened.page.locator("canvas.seiswidgets-plot").first
+    canvas.wait_for()
+    opened.page.wait_for_function(
+        """() => { const one = document.querySelector("canvas.seiswidgets-plot");
+        return one.width > 0 && one.getContext("2d").getImageData(one.width / 2, one.height / 2, 1, 1).data[3] > 0 }"""
+    )
+
+
+def until(opened, code, wanted=True):
+    """Wait until an expression has a value in the kernel."""
+    for _ in range(150):
+        if (found := opened.ask(code)) == wanted:
+            return
+        time.sleep(0.1)
+    pytest.fail(f"{code} is {found}, never {wanted}")
+
+
+def at(opened, x, y):
+    """A place of the page, from shares of the first pane's width and height."""
+    box = opened.page.locator("canvas.seiswidgets-plot").first.bounding_box()
+    return box["x"] + x * box["width"], box["y"] + y * box["height"]
+
+
+def draw_fault(opened, x):
+    """A fault of two vertices, by mouse."""
+    opened.page.get_by_role("button", name="Fault", exact=True).click()
+    opened.page.mouse.click(*at(opened, x, 0.2))
+    opened.page.mouse.dblclick(*at(opened, x + 0.05, 0.8))
+
+
+def show(opened, tab):
+    opened.page.get_by_role("tab", name=tab, exact=True).click()
+
+
+def shoot(opened, called):
+    SCREENSHOTS.mkdir(exist_ok=True)
+    opened.page.screenshot(path=SCREENSHOTS / f"{called}.png")
+
+
+def test_a_kernel_killed_in_mid_drag_loses_no_finished_edit(app, name):
+    draw_fault(app, 0.3)
+    draw_fault(app, 0.6)
+    until(app, NAMES, ["F1", "F2"])
+    until(app, SAVED.format(name), [2])
+    before, process = app.ask(PICKS), app.ask("os.getpid()")
+    app.page.mouse.move(*at(app, 0.3, 0.2))
+    app.page.mouse.down()
+    app.page.mouse.move(*at(app, 0.4, 0.3), steps=4)
+    until(app, "app.picker.dragging")
+    os.kill(process, signal.SIGKILL)
+    app.page.mouse.up()
+    dialog = app.page.locator(".jp-Dialog")
+    dialog.get_by_role("button").last.click()
+    app.page.wait_for_function(READY)
+    app.run()
+    ready(app)
+    assert app.ask("os.getpid()") != process
+    assert app.ask(NAMES) == []
+    app.page.get_by_text("holds earlier work").wait_for()
+    shoot(app, "session-offered")
+    app.page.get_by_role("button", name="Open", exact=True).click()
+    until(app, NAMES, ["F1", "F2"])
+    assert app.ask(PICKS) == before
+    assert set(app.errors) <= {"Cannot send"}  # which JupyterLab throws at whoever talks to a dead kernel
+    app.errors.clear()
+
+
+def test_a_tab_that_is_closed_and_opened_again_goes_on(app, name):
+    draw_fault(app, 0.3)
+    until(app, NAMES, ["F1"])
+    app.command("docmanager:save")
+    address = app.page.url
+    app.page.close()
+    app.page = app.context.new_page()
+    app.page.set_default_timeout(20_000)
+    app.page.on("console", app._note)
+    app.page.goto(address)
+    app.page.wait_for_function(READY)
+    ready(app)
+    assert app.ask(NAMES) == ["F1"]
+    draw_fault(app, 0.6)
+    until(app, NAMES, ["F1", "F2"])
+    until(app, SAVED.format(name), [2])
+
+
+def test_a_full_disk_is_said_and_the_picks_are_saved_when_there_is_room(app, name):
+    app.ask(DISK.format(True))
+    draw_fault(app, 0.3)
+    alert = app.page.get_by_role("alert").filter(has_text="No space left on device")
+    alert.wait_for()
+    shoot(app, "disk-full")
+    assert app.ask(NAMES) == ["F1"]
+    draw_fault(app, 0.6)
+    until(app, NAMES, ["F1", "F2"])
+    assert app.ask(SAVED.format(name)) == []
+    assert app.ask("app.solving.spacing") is None  # though the page has rounded the slider's value
+    app.ask(DISK.format(False))
+    alert.wait_for(state="hidden")
+    until(app, SAVED.format(name), [2])
+
+
+def test_a_connection_that_drops_for_ten_seconds_loses_nothing(app, name):
+    draw_fault(app, 0.3)
+    until(app, NAMES, ["F1"])
+    app.page.add_locator_handler(  # JupyterLab says that the server is gone
+        app.page.locator(".jp-Dialog"), lambda dialog: dialog.get_by_role("button").last.click()
+    )
+    app.context.set_offline(True)
+    app.page.evaluate(DROP)
+    for x in (0.5, 0.6):  # which may be lost: the page does not know yet that nobody listens
+        app.page.mouse.click(*at(app, x, 0.5))
+        app.page.mouse.wheel(0, -300)
+    time.sleep(OFFLINE)  # the drop itself
+    app.context.set_offline(False)
+    app.page.wait_for_function(READY)
+    assert app.ask(NAMES) == ["F1"]
+    app.page.get_by_role("button", name="Look", exact=True).click()  # ends what came only in part
+    until(app, "app.picker.pen.drawing.under_way is None")
+    count = len(app.ask(NAMES)) + 1
+    draw_fault(app, 0.8)
+    until(app, f"len({NAMES})", count)
+    until(app, SAVED.format(name), [count])
+    window = app.ask("app.panes.original.view.window")
+    app.page.mouse.wheel(0, -300)
+    until(app, f"list(app.panes.original.view.window) == {window}", False)
+    assert all("WebSocket" in error or "ERR_" in error for error in app.errors), app.errors
+    app.errors.clear()
+
+
+def test_a_segy_line_is_opened_by_path_and_by_upload(notebook, name, lab, tmp_path):
+    app = notebook(APP.format(name), height=1500)
+    ready(app)
+    path = line(lab.folder / f"{name}.sgy", text="C01 <img src=x onerror=alert(1)>".ljust(3200))
+    show(app, "File")
+    field = app.page.get_by_placeholder("section: path of")
+    field.fill(path.name)
+    field.press("Enter")
+    app.page.get_by_text("30 traces of 40 samples").wait_for()
+    app.page.get_by_text("textual header").click()
+    app.page.get_by_text("C01 <img src=x").wait_for()
+    shoot(app, "file-panel")
+    app.page.get_by_role("button", name="Open section").click()
+    until(app, "[app.section.name, app.section.shape]", [name, [40, 30]])
+    ready(app)
+    expected = sw.open_section(path, velocity=2000.0).amplitude
+    np.testing.assert_allclose(app.ask("app.section.amplitude[:3].tolist()"), expected[:3], rtol=1e-6)
+    with app.page.expect_file_chooser() as chooser:
+        app.page.get_by_role("button", name="Upload").first.click()
+    chooser.value.set_files(line(tmp_path / "sent.sgy", count=50))
+    app.page.get_by_text("50 traces of 40 samples").wait_for()
+    app.page.get_by_role("button", name="Open section").click()
+    until(app, "[app.section.name, app.section.shape]", ["sent", [40, 50]])
+    shoot(app, "file-opened")

@@ -1,0 +1,335 @@
+import os
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from seiswidgets.errors import DataError, SettingError
+from seiswidgets.io import writing
+from seiswidgets.io.autosave import found, numbered
+from seiswidgets.widgets.app import RestorationApp
+from tests.widgets.hands import appear, drag_to, draw, keys, press, release
+
+LONG = 60
+FAULT, OTHER = [(2000.0, 200.0), (2400.0, 1200.0)], [(3000.0, 200.0), (3300.0, 1200.0)]
+SOURCE = sw.SectionSource("synthetic", "faulted_fold")
+
+
+@pytest.fixture(scope="module")
+def section():
+    return sw.synthetic.faulted_fold().section
+
+
+@pytest.fixture
+def new_app(section):
+    """A function that makes an app; at the end all are closed, and no thread that saves is left."""
+    made = []
+
+    def new(one=section, **settings):
+        made.append(RestorationApp(one, **{"live": False, "source": SOURCE, **settings}))
+        appear(made[-1].panes.original, made[-1].panes.restored)
+        return made[-1]
+
+    yield new
+    for app in made:
+        app.close()
+        assert app.wait(LONG)
+    assert not [thread for thread in threading.enumerate() if thread.name.startswith("autosave")]
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "work.json"
+
+
+@pytest.fixture
+def full_disk(monkeypatch):
+    """A list: as long as it holds anything, nothing can be written."""
+    full, replace = [], os.replace
+
+    def replaced(one, other):
+        if full:
+            raise OSError(28, "No space left on device")
+        replace(one, other)
+
+    monkeypatch.setattr(writing.os, "replace", replaced)
+    return full
+
+
+def wait_for(condition, seconds=20):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def draw_fault(app, points=FAULT):
+    app.picker.mode = "fault"
+    app.picker.pen.deselect()
+    draw(app.panes.original, *points)
+
+
+def names(path):
+    """Of the picks in the newest version."""
+    versions = found(path)
+    return [pick.name for pick in (*versions[0].session.faults, *versions[0].session.horizons)] if versions else []
+
+
+def choose(app, answer):
+    app.keeper.notice.answers[answer].click()
+    assert app.wait(LONG)
+
+
+def test_without_a_path_nothing_is_written(new_app, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    app = new_app()
+    draw_fault(app)
+    app.close()
+    assert app.session_path is None
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
+    app = new_app(session=path)
+    assert app.session_path == path
+    assert not numbered(path)
+    begun = time.monotonic()
+    draw_fault(app)
+    wait_for(lambda: names(path) == ["F1"])
+    assert time.monotonic() - begun < 2  # of which the saving takes one at most
+    app.picker.pen.recolour("fault", "F1", "#123456")
+    app.picker.pen.show("fault", "F1", False)
+    app.picker.refresh()
+    app.weights = sw.Weights(stitch=33.0)
+    app.solving.spacing = 77.0
+    app.steps = (sw.Step("unfault"),)
+    app.fixed = (100.0, 100.0)
+    app.close()
+    session = found(path)[0].session
+    assert [(pick.colour, pick.visible) for pick in session.faults] == [("#123456", False)]
+    assert session.plan == app.plan == sw.Plan((sw.Step("unfault"),), sw.Weights(stitch=33.0), spacing=77.0)
+    assert session.fixed == (100.0, 100.0)
+    assert session.source == SOURCE
+
+
+def test_what_is_dragged_is_saved_when_it_is_let_go(new_app, path):
+    app = new_app(session=path)
+    draw_fault(app)
+    pane = app.panes.original
+    press(pane, FAULT[0])
+    drag_to(pane, (2100.0, 300.0))
+    app.keeper.end()
+    assert found(path)[0].session.faults[0].pieces == (tuple(FAULT),)
+    release(pane, (2100.0, 300.0))
+    app.session_path = path
+    choose(app, "Start anew")
+    app.close()
+    assert found(path)[0].session.faults[0].pieces[0][0] == pytest.approx((2100.0, 300.0))
+
+
+def test_lines_that_cannot_be_used_are_saved_too(new_app, path):
+    app = new_app(session=path)
+    draw_fault(app, [(1000.0, 200.0), (1400.0, 600.0), (1400.0, 200.0), (1000.0, 600.0)])
+    assert app.interpretation.faults == ()
+    app.close()
+    assert names(path) == ["F1"]
+
+
+def test_earlier_work_is_offered_and_opened(new_app, path, section):
+    first = new_app(session=path)
+    draw_fault(first)
+    first.picker.pen.recolour("fault", "F1", "#123456")
+    first.picker.refresh()
+    first.weights = sw.Weights(stitch=33.0)
+    first.close()
+    before = {file: file.read_bytes() for file in path.parent.iterdir()}
+    again = new_app(session=path)
+    assert "holds earlier work" in again.keeper.notice.text
+    assert ": 1 fault, 0 horizons (work.00000" in again.keeper.versions.options[0][0]
+    draw_fault(again, OTHER)
+    again.keeper.end()
+    assert {file: file.read_bytes() for file in path.parent.iterdir()} == before
+    again.session_path = path
+    choose(again, "Open")
+    assert again.section is section
+    assert again.picker.drawing == first.picker.drawing
+    assert again.weights == sw.Weights(stitch=33.0)
+    keys(again.panes.original, "z", modifiers=["ctrl"])  # what was drawn before the choice is not lost either
+    np.testing.assert_allclose(again.interpretation.faults[0].points, OTHER)
+
+
+def test_an_older_version_can_be_chosen(new_app, path):
+    first = new_app(session=path)
+    draw_fault(first)
+    wait_for(lambda: names(path) == ["F1"])
+    draw_fault(first, OTHER)
+    first.close()
+    assert names(path) == ["F1", "F2"]
+    again = new_app(session=path)
+    again.keeper.versions.value = again.keeper.versions.options[1][1]
+    choose(again, "Open")
+    assert [pick.name for pick in again.picker.drawing.picks] == ["F1"]
+
+
+def test_who_starts_anew_keeps_the_earlier_work_aside(new_app, path):
+    first = new_app(session=path)
+    draw_fault(first)
+    first.close()
+    again = new_app(session=path)
+    choose(again, "Start anew")
+    assert "stays in" in again.keeper.notice.text
+    draw_fault(again, OTHER)
+    for number in range(12):
+        again.fixed = (100.0 + number, 100.0)
+        wait_for(lambda: again.keeper._autosave.pending is None)
+    assert len(numbered(path)) == 10
+    assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].name == "F1"
+
+
+def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_disk):
+    app = new_app(session=path)
+    full_disk.append(True)
+    draw_fault(app)
+    wait_for(lambda: app.keeper._failure.text)
+    assert "No space left on device" in app.keeper._failure.text
+    assert "stays in memory" in app.keeper._failure.text
+    assert app.status.text != app.keeper._failure.text
+    assert [fault.name for fault in app.interpretation.faults] == ["F1"]
+    full_disk.clear()
+    wait_for(lambda: names(path) == ["F1"])
+    wait_for(lambda: not app.keeper._failure.text)
+    assert "Saved again" in app.keeper.notice.text
+
+
+def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk, monkeypatch):
+    app = new_app(session=path)
+    full_disk.append(True)
+    draw_fault(app)
+    wait_for(lambda: app.keeper._failure.text)
+    full_disk.clear()
+    monkeypatch.setattr(app.keeper._autosave, "_written", lambda session: DataError("still full"))
+    app.session_path = path.with_name("other.json")
+    assert not app.keeper._failure.text
+    wait_for(lambda: names(path.with_name("other.json")) == ["F1"])
+    assert names(path) == []
+
+
+def test_closing_on_a_full_disk_says_so(new_app, path, full_disk):
+    app = new_app(session=path)
+    full_disk.append(True)
+    draw_fault(app)
+    with pytest.raises(DataError, match="No space left"):
+        app.close()
+    full_disk.clear()
+
+
+def test_a_section_from_nowhere_is_kept_beside_its_session(new_app, path, section, tmp_path):
+    app = new_app(session=path, source=None)
+    draw_fault(app)
+    app.close()
+    (beside,) = tmp_path.glob("work.section-*.npz")
+    again = sw.open_session(found(path)[0].path)
+    assert again.source == sw.SectionSource("file", str(beside))
+    np.testing.assert_array_equal(again.open_section().amplitude, section.amplitude)
+
+
+def test_work_on_another_section_opens_that(new_app, path):
+    first = new_app(session=path)
+    draw_fault(first)
+    first.close()
+    again = new_app(sw.synthetic.tilt().section, session=path, source=None)
+    draw_fault(again, OTHER)
+    choose(again, "Open")
+    np.testing.assert_array_equal(again.section.amplitude, first.section.amplitude)
+    assert again.source == SOURCE
+    assert again.picker.drawing.picks == first.picker.drawing.picks
+    again.close()
+    assert [file.name for file in path.parent.iterdir() if "before" in file.name] == []
+
+
+def test_the_picks_alone_are_taken_where_the_section_is_gone(new_app, path, section, tmp_path):
+    first = new_app(session=path, source=None)
+    draw_fault(first)
+    first.close()
+    next(tmp_path.glob("*.npz")).unlink()
+    other = sw.Section(section.amplitude * 2, section.dx, section.dz)
+    again = new_app(other, session=path, source=None)
+    choose(again, "Open")
+    assert "is not there" in again.keeper.notice.text
+    choose(again, "Picks only")
+    assert again.section is other
+    assert again.picker.drawing.picks == first.picker.drawing.picks
+    small = new_app(sw.Section(section.amplitude[:9, :9], section.dx, section.dz), source=None)
+    small.session_path = path
+    choose(small, "Picks only")
+    assert "do not lie on the section" in small.keeper.notice.text
+    assert set(small.keeper.notice.answers) == {"Open", "Picks only", "Start anew"}
+    assert again.session_path is None
+    assert "Another app keeps its work" in again.keeper.notice.text
+
+
+def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, section, tmp_path):
+    folder = tmp_path / "work"
+    folder.mkdir()
+    sw.save_section(section, tmp_path / "outside.npz")
+    first = new_app(session=folder / "work.json", source=sw.SectionSource("file", str(tmp_path / "outside.npz")))
+    draw_fault(first)
+    first.close()
+    again = new_app(sw.synthetic.tilt().section, session=folder / "work.json", source=None)
+    choose(again, "Open")
+    assert "outside the session's folder" in again.keeper.notice.text
+    choose(again, "Back")
+    choose(again, "Open")
+    choose(again, "Read it")
+    np.testing.assert_array_equal(again.section.amplitude, section.amplitude)
+
+
+def test_another_section_sets_the_work_on_the_first_aside(new_app, path, full_disk):
+    app = new_app(session=path)
+    draw_fault(app)
+    other = sw.synthetic.tilt().section
+    full_disk.append(True)
+    with pytest.raises(DataError, match="No space left"):
+        app.section = other
+    assert [fault.name for fault in app.interpretation.faults] == ["F1"]
+    full_disk.clear()
+    app.section = other
+    aside = path.with_name("work.before-000001.json")
+    assert str(aside) in app.keeper.notice.text
+    app.begin(other, app.picker.drawing)
+    draw_fault(app, [(500.0, 200.0), (800.0, 700.0)])
+    app.close()
+    assert sw.open_session(aside).faults[0].pieces == (tuple(FAULT),)
+    np.testing.assert_array_equal(found(path)[0].session.open_section().amplitude, other.amplitude)
+
+
+def test_versions_that_cannot_be_opened_are_not_written_over_unasked(new_app, path):
+    path.with_name("work.000003.json").write_text('{"format": "seiswidgets session", "version": 99}')
+    app = new_app(session=path)
+    assert "none that can be opened" in app.keeper.notice.text
+    draw_fault(app)
+    choose(app, "Start anew")
+    app.close()
+    assert sorted(file.name for file in path.parent.glob("*.json")) == [
+        "work.000003.json",
+        "work.000004.json",
+        "work.before-000003.json",
+    ]
+
+
+def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
+    app = new_app()
+    with pytest.raises(SettingError, match=r"must end in \.json"):
+        app.session_path = tmp_path / "work.txt"
+    with pytest.raises(DataError, match="there is no folder"):
+        app.session_path = tmp_path / "none" / "work.json"
+    app.files.session.path.value = "work.txt"
+    app.files.session._keep()
+    assert "must end in .json" in app.files.session.notice.text
+    app.files.session.path.value = str(tmp_path / "work.json")
+    app.files.session._keep()
+    assert app.session_path == tmp_path / "work.json"
+    app.session_path = None
+    assert app.session_path is None
