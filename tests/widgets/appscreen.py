@@ -1,6 +1,5 @@
 """A restoration app in a notebook, and a hand that works it by mouse and keyboard."""
 
-import re
 import time
 
 import numpy as np
@@ -80,19 +79,17 @@ class AppScreen:
     def lines(self, number=0):
         """What the layer of a pane has drawn, without the cursors."""
         plot = self.plots.nth(number)
-        return [plot.locator(f".{name}").first.evaluate("one => one.outerHTML") for name in ("mesh", "strokes", "marks")]
+        return [
+            plot.locator(f".{name}").first.evaluate("one => one.outerHTML") for name in ("mesh", "strokes", "marks")
+        ]
 
-    def line(self, name, number=0):
-        """The pixels that a named pick's first line goes through in a pane, shape (n, 2)."""
-        count = self.plots.nth(number).locator(".stroke").count()
-        states = self.ask(f"[stroke['label'] for stroke in panes[{number % 2}].layer.strokes]")
-        assert len(states) == count
-        return self.stroke(states.index(name), number)
-
-    def stroke(self, index, number=0):
-        """The pixels that one of a pane's lines goes through, shape (n, 2)."""
-        path = self.plots.nth(number).locator(".stroke .line").nth(index).get_attribute("d")
-        return np.array(re.findall(r"[-.\de]+", path), float).reshape(-1, 2)
+    def paths(self, number=0):
+        """The SVG paths of all lines in a pane."""
+        return (
+            self.plots.nth(number)
+            .locator(".stroke .line")
+            .evaluate_all("all => all.map((one) => one.getAttribute('d'))")
+        )
 
     def pixels(self, points, number=0):
         """Where points of a pane's section are on the page, in css pixels, shape (n, 2)."""
@@ -141,7 +138,9 @@ class AppScreen:
 
     def becomes(self, code, value, atol=1e-9):
         """Wait until an expression of numbers has a value in the kernel."""
-        self.until(f"np.shape({code}) == {np.shape(value)} and np.allclose({code}, {np.asarray(value).tolist()}, 0, {atol})")
+        self.until(
+            f"np.shape({code}) == {np.shape(value)} and np.allclose({code}, {np.asarray(value).tolist()}, 0, {atol})"
+        )
 
     def shows(self, code, value, seconds=30):
         """Wait until an expression has just this value in the kernel."""

@@ -24,8 +24,13 @@ FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",  # Voila's page asks others for icons and formulas
 ]
-IGNORED = re.compile("favicon|net::ERR_INTERNET_DISCONNECTED")
+IGNORED = re.compile(
+    "favicon|net::ERR_INTERNET_DISCONNECTED|net::ERR_NAME_NOT_RESOLVED"
+    "|@jupyter-notebook/lab-extension"  # that Voila cannot load
+    "|reading 'schema'"  # Notebook 7.6 says so of a notebook without any widget too
+)
 START, RUN = 60, 60  # seconds that the server may take to start, and anything in the page
 
 
@@ -84,40 +89,33 @@ class Server:
         return f"http://127.0.0.1:{self.port}/{place}/{path}?reset&token={self.token}"
 
 
-class Notebook:
-    """A notebook in the browser, its cells run.
+class Page:
+    """A page of the server in the browser, and the errors in its console.
 
     Parameters
     ----------
-    lab, chromium
-        The fixtures.
-    cells : sequence of str
-        Its code.
+    chromium
+        The fixture.
+    address : str
     ratio : float
         Device pixels in a css pixel.
-    dark : bool
-        JupyterLab's dark theme.
     width, height : int
         Of the window, in css pixels.
     touch : bool
         Whether the screen takes fingers.
     """
 
-    def __init__(self, lab, chromium, cells, *, ratio=1.0, dark=False, width=1200, height=900, touch=False):
-        name = lab.write(cells)
-        self.errors = []
+    def __init__(self, chromium, address, *, ratio=1.0, width=1200, height=900, touch=False):
+        self.errors, self.dialogs, self.sent = [], [], []
         size = {"width": width, "height": height}
         self.context = chromium.new_context(viewport=size, device_scale_factor=ratio, has_touch=touch)
         self.page = self.context.new_page()
         self.page.set_default_timeout(RUN * 1000)
         self.page.on("console", self._note)
-        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.sent, self.dialogs = [], []
-        self.page.on("websocket", lambda socket: socket.on("framesent", lambda frame: self.sent.append(frame)))
+        self.page.on("pageerror", lambda error: IGNORED.search(str(error)) or self.errors.append(str(error)))
         self.page.on("dialog", self._dismiss)
-        self.page.goto(lab.address(name))
-        self._simplify(dark)
-        self.run()
+        self.page.on("websocket", lambda socket: socket.on("framesent", lambda frame: self.sent.append(frame)))
+        self.page.goto(address)
 
     def _note(self, message):
         if message.type == "error" and not IGNORED.search(message.text):
@@ -126,6 +124,30 @@ class Notebook:
     def _dismiss(self, dialog):
         self.dialogs.append(dialog.message)
         dialog.dismiss()
+
+    def close(self):
+        self.context.close()
+
+
+class Notebook(Page):
+    """A notebook in JupyterLab, its cells run.
+
+    Parameters
+    ----------
+    lab, chromium
+        The fixtures.
+    cells : sequence of str
+        Its code.
+    dark : bool
+        JupyterLab's dark theme.
+    **options
+        Of the page.
+    """
+
+    def __init__(self, lab, chromium, cells, *, dark=False, **options):
+        super().__init__(chromium, lab.address(lab.write(cells)), **options)
+        self._simplify(dark)
+        self.run()
 
     def _simplify(self, dark):
         self.page.locator(".jp-Notebook").wait_for()
@@ -158,9 +180,6 @@ class Notebook:
     def ask(self, code):
         """What an expression is in the kernel, by way of the notebook's own kernel connection."""
         return json.loads(self.page.evaluate(ASK, f"import json; print(json.dumps({code}))"))
-
-    def close(self):
-        self.context.close()
 
 
 READY = """() => {

@@ -8,7 +8,7 @@ import pytest
 
 from tests.widgets.appscreen import EMPTY, SHOWN, AppScreen
 from tests.widgets.bare import BareLayer
-from tests.widgets.browser import FLAGS, Notebook, Server
+from tests.widgets.browser import FLAGS, Notebook, Page, Server
 
 
 @pytest.fixture(autouse=True)
@@ -38,8 +38,20 @@ def chromium():
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory):
-    """The address of a JupyterLab of its own, its token and its folder."""
-    folder = tmp_path_factory.mktemp("lab")
+    """A JupyterLab of its own: its address, its token and its folder."""
+    with _running(tmp_path_factory.mktemp("lab")) as server:
+        yield server
+
+
+@pytest.fixture(scope="session")
+def other_server(tmp_path_factory):
+    """Another one, for Voila's pages: after one of those, JupyterLab's fonts are refused."""
+    with _running(tmp_path_factory.mktemp("other")) as server:
+        yield server
+
+
+@contextlib.contextmanager
+def _running(folder):
     server = Server(folder)
     try:
         server.wait()
@@ -62,6 +74,22 @@ def notebook(lab, chromium):
         return opened[-1]
 
     yield open_notebook
+    for one in opened:
+        one.close()
+    assert [error for one in opened for error in one.errors] == []
+
+
+@pytest.fixture
+def elsewhere(other_server, chromium):
+    """A function that opens a cell of code at another place of the server; the console must hold no error."""
+    opened = []
+
+    def open_page(cell, place):
+        name = other_server.write([cell])
+        opened.append(Page(chromium, other_server.address(name, place), height=1150))
+        return opened[-1]
+
+    yield open_page
     for one in opened:
         one.close()
     assert [error for one in opened for error in one.errors] == []

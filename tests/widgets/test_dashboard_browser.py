@@ -20,15 +20,15 @@ AXES_SEEN = """() => [...document.querySelectorAll(".seiswidgets-layer .label")]
 
 
 @pytest.fixture
-def dashboard(lab, chromium):
+def dashboard(other_server, chromium):
     """The page of the dashboard; at the end the console must hold no error."""
-    shutil.copy(ROOT / "notebooks" / "dashboard.ipynb", lab.folder)
+    shutil.copy(ROOT / "notebooks" / "dashboard.ipynb", other_server.folder)
     context, errors = chromium.new_context(viewport={"width": 1200, "height": 1000}), []
     page = context.new_page()
     page.set_default_timeout(RUN * 1000)
     page.on("console", lambda message: errors.append(_told(message)) if message.type == "error" else None)
     page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto(f"http://127.0.0.1:{lab.port}/voila/render/dashboard.ipynb?token={lab.token}")
+    page.goto(other_server.address("dashboard.ipynb", "voila/render"))
     yield page
     context.close()
     assert [error for error in errors if not (IGNORED.search(error) or FOREIGN.search(error))] == []

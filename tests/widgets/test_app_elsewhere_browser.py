@@ -1,0 +1,48 @@
+"""The app outside JupyterLab, and under fingers: in Notebook 7, in Voila, on a screen that is touched."""
+
+import pytest
+
+from tests.widgets.appscreen import EMPTY, SHOWN
+from tests.widgets.byhand import is_painted
+
+FAULT = [(0.46, 0.01), (0.53, 0.35), (0.62, 0.7), (0.74, 0.99)]  # shares of the plot area
+
+
+def fault_places(page):
+    box = page.locator(".seiswidgets-layer .plot").first.bounding_box()
+    return [(box["x"] + x * box["width"], box["y"] + y * box["height"]) for x, y in FAULT]
+
+
+def is_drawn(page):
+    """The kernel has made a fault of it: both panes show it, and the list has it."""
+    page.locator(".seiswidgets-layer .name").nth(1).wait_for(state="attached")
+    assert page.locator(".seiswidgets-layer .name").all_text_contents() == ["F1", "F1"]
+    page.locator("input[title='name of this fault']").wait_for()
+    assert page.locator("input[title='name of this fault']").input_value() == "F1"
+
+
+@pytest.mark.parametrize("place", ["voila/render", "notebooks"])
+def test_a_fault_is_drawn_in_voila_and_in_notebook_7(elsewhere, place):
+    page = elsewhere(EMPTY + SHOWN, place).page
+    if place == "notebooks":
+        page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").wait_for(state="attached")
+        page.locator(".jp-CodeCell .cm-content").first.click()
+        page.keyboard.press("Shift+Enter")
+    is_painted(page)
+    page.locator("button[data-value=Fault]").click()
+    places = fault_places(page)
+    for at in places[:-1]:
+        page.mouse.click(*at)
+    page.mouse.dblclick(*places[-1])
+    is_drawn(page)
+
+
+def test_a_fault_is_drawn_by_taps(open_app):
+    screen = open_app(touch=True)
+    screen.page.locator("button[data-value=Fault]").tap()
+    screen.until("app.picker.mode == 'fault'")
+    places = fault_places(screen.page)
+    for at in [*places, places[-1]]:  # twice on the last
+        screen.page.touchscreen.tap(*at)
+    is_drawn(screen.page)
+    screen.becomes("len(app.interpretation.faults[0].points)", 4)

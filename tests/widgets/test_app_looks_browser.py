@@ -1,0 +1,71 @@
+"""The app in its main states, in both themes and on narrow and wide windows: a screenshot of each, to be looked at."""
+
+from tests.widgets.test_histogram_browser import bar
+
+WIDTHS, HEIGHT = (1200, 1900), 1150
+OUT = """() => [...document.querySelectorAll(".jp-OutputArea-output button, .jp-OutputArea-output .seiswidgets-layer")]
+  .filter((one) => one.offsetParent !== null && one.getBoundingClientRect().right > window.innerWidth)
+  .map((one) => one.textContent)"""
+
+OPACITIES = "(canvases) => canvases.map((canvas) => getComputedStyle(canvas).opacity)"
+
+
+def look(screen, state):
+    """Every look of a state: nothing is cut off by the window, and every pane is painted for the room it has."""
+    for dark in (False, True):
+        screen.opened.darken(dark)
+        for width in WIDTHS:
+            screen.page.set_viewport_size({"width": width, "height": HEIGHT})
+            one, other = screen.pictures(lambda pictures: all(is_filled(screen, pictures)))
+            assert one[:2] == other[:2]
+            assert screen.page.evaluate(OUT) == []
+            screen.shoot(f"app-{state}-{'dark' if dark else 'light'}-{width}")
+
+
+def is_filled(screen, pictures):
+    """Whether each canvas has as many pixels as the plot area is large."""
+    for (width, height, *_), box in zip(
+        pictures, (screen.plots.nth(number).bounding_box() for number in (0, 1)), strict=True
+    ):
+        yield abs(width - box["width"]) <= 1 and abs(height - box["height"]) <= 1
+
+
+def test_every_state_in_every_look(open_app):
+    screen = open_app()
+    look(screen, "empty")
+    screen.button("Fault").click()
+    screen.click(*screen.points("drawn.faults[0].points[:24:6]"))
+    screen.page.mouse.move(*screen.pixels([(2700, 1500)])[0])
+    look(screen, "picking")
+    screen.press("Escape")
+    screen.ask("[app.set_trait('interpretation', drawn), app.set_trait('fixed', case.fixed)] and None")
+    screen.until("len(app.restoration.stages) == 2 and app.wait(30)")
+    look(screen, "restored")
+    screen.button("Horizon").click()
+    (mark,) = screen.points("[mark.inside for mark in pen.cutoffs()][:1]")
+    screen.drag(mark, mark + [60, 120], drop=False)
+    screen.until("app.picker.dragging and app.panes.shown.moving")
+    screen.shoot("app-dragging")
+    screen.press("Escape")
+    screen.page.mouse.up()
+    screen.press("Escape", "Escape")
+    screen.until("app.wait(30) and not app.panes.shown.moving")
+    screen.page.mouse.move(*bar(screen.opened, 25))
+    screen.page.mouse.down()
+    screen.page.mouse.move(*bar(screen.opened, 40), steps=5)
+    screen.page.mouse.up()
+    screen.until("app.panes.brush")
+    look(screen, "brushed")
+    screen.ask("app.histogram.set_trait('brush', [])")
+    screen.ask("app.timeline.set_trait('time', 0.6)")
+    look(screen, "timeline")
+    for name in ("Weights", "Steps", "Solver", "Display", "Report"):
+        screen.tab(name)
+        screen.shoot(f"app-tab-{name.lower()}")
+    screen.tab("Picks")
+    far = "sw.Interpretation([*drawn.faults, sw.Fault([(100.0, 100.0), (150.0, 500.0)], 'far')], drawn.horizons)"
+    screen.ask(f"app.set_trait('interpretation', {far})")
+    screen.button("Restore").click()
+    screen.page.get_by_role("alert").get_by_text("'far'").nth(1).wait_for()
+    look(screen, "error")
+    assert screen.page.eval_on_selector_all("canvas.seiswidgets-plot", OPACITIES) == ["1", "0.5"]
