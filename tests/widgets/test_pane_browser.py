@@ -45,7 +45,7 @@ ipywidgets.VBox([pane, other])
 PICKED = (
     CELL
     + """
-from seiswidgets.widgets.overlay import Mark, Overlay, Stroke
+from seiswidgets.widgets.panes.overlay import Mark, Overlay, Stroke
 x_min, x_max, z_min, z_max = pane.view.whole
 w, h = x_max - x_min, z_max - z_min
 at = lambda *points: np.array(points) * [w, h] + [x_min, z_min]
