@@ -23,13 +23,13 @@ from seiswidgets.widgets.restoring.controls import DisplayControls, SolverContro
 from seiswidgets.widgets.restoring.frame import Frame
 from seiswidgets.widgets.restoring.histogram import DeformationHistogram
 from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
+from seiswidgets.widgets.restoring.moments import Moments
 from seiswidgets.widgets.restoring.reports import Reports
 from seiswidgets.widgets.restoring.restorer import REST, Restorer
 from seiswidgets.widgets.restoring.statusbar import StatusBar
 from seiswidgets.widgets.restoring.steplist import StepList
 from seiswidgets.widgets.restoring.timeline import Timeline
 from seiswidgets.widgets.restoring.weightsliders import WeightSliders
-from seiswidgets.widgets.restoring.worker import Worker
 
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
@@ -45,6 +45,7 @@ class RestorationApp(Turning, VBox):
 
     On the left is the section of today, on the right the restored one; lines can be drawn in either. While something
     is dragged the section is restored as it moves, on a coarse mesh, and on the full mesh when it comes to rest.
+    ``app.section`` and ``app.session_path`` may be set to go on with another section, or to keep the work elsewhere.
 
     Parameters
     ----------
@@ -75,10 +76,6 @@ class RestorationApp(Turning, VBox):
         Whether every change restores by itself; if not, the button does.
     restoration : Restoration
         The newest on the full mesh. All may be set, and observed.
-    section : Section
-        May be set: picks that lie on the new one too are kept, others go, and there is nothing to undo.
-    session_path : Path or None
-        Where the work is kept; may be set.
     panes, picker, histogram, sliders, timeline : LinkedPanes, Picker, DeformationHistogram, WeightSliders, Timeline
         The parts.
 
@@ -113,7 +110,8 @@ class RestorationApp(Turning, VBox):
         self._ready = self._pressed = False
         self.source = source
         self._make_parts(section, picks, height)
-        self._restorer, self._moments = Restorer(self._draw, self.status.tell, self._fail), Worker()
+        self._restorer = Restorer(self._draw, self.status.tell, self._fail)
+        self._moments = Moments(self.panes, self.picker.redraw)
         super().__init__(self._placed(), **picks, **settings)
         self._tie_parts()
         self._ready = True
@@ -186,7 +184,7 @@ class RestorationApp(Turning, VBox):
         link((self.histogram, "brush"), (self.panes, "brush"))
         self.solving.observe(self._take_change, ("spacing", "solver"))
         self.picker.observe(self._take_rest, "dragging")
-        self.timeline.observe(self._take_time, "time")
+        self.timeline.observe(lambda change: self._moments.show(self.restoration, change.new), "time")
         self.panes.on_reading(self._mark)
 
     def _task(self):
@@ -229,6 +227,7 @@ class RestorationApp(Turning, VBox):
 
     def _draw(self, frame, restoration):
         """Draw a restoration; without it a frame is but a quick look."""
+        self._moments.cancel()
         if restoration is None:
             self.panes.show(frame)
         else:
@@ -242,7 +241,6 @@ class RestorationApp(Turning, VBox):
 
     def _show_whole(self, frame, restoration):
         self.panes.show(frame)
-        self._whole = frame
         self.panes.restoration = restoration
         self.restoration = restoration
         self.timeline.labels = [stage.kind for stage in restoration.stages]
@@ -276,18 +274,6 @@ class RestorationApp(Turning, VBox):
     def _set_outdated(self, outdated):
         change = self.panes.restored.add_class if outdated else self.panes.restored.remove_class
         change("seiswidgets-outdated")
-
-    def _take_time(self, change):
-        """Show a moment on the way from today to the restored section."""
-        restoration, time = self.restoration, change.new
-        self._moments.cancel()
-        if self.panes.shown.restoration is restoration and time == len(restoration.stages):
-            return
-        if time == len(restoration.stages):
-            self.panes.show(self._whole)
-        else:
-            self.panes.show(Frame.of(restoration.at(time), moving=True))
-        self.picker.redraw()
 
     def _mark(self, reading):
         ratio = reading.ratio if reading else np.nan

@@ -243,7 +243,9 @@ def test_what_should_not_happen_is_said_too(app, monkeypatch, caplog):
 def test_the_timeline_shows_every_moment(app, case):
     for time in (0.0, 0.4, 1.0, 1.7):
         app.timeline.time = time
+        assert app.panes.shown.moving
         assert app.wait(LONG)
+        assert not app.panes.shown.moving
         shown = app.panes.shown.restoration
         assert len(shown.stages) == int(np.ceil(time))
         points = [(500.0, 500.0), (3000.0, 1500.0)]

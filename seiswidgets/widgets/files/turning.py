@@ -18,7 +18,7 @@ class Turning:
 
     @property
     def section(self) -> Section:
-        """That is restored."""
+        """That is restored. If it is set, picks that lie on the new one too are kept; there is nothing to undo then."""
         return self.panes.original.section
 
     @section.setter
@@ -29,7 +29,7 @@ class Turning:
 
     @property
     def session_path(self) -> Path | None:
-        """Where the work is kept."""
+        """Where the work is kept, None if nowhere; may be set."""
         return self.keeper.path
 
     @session_path.setter

@@ -78,10 +78,12 @@ class Restorer:
         except Cancelled:
             return
         except SeiswidgetsError as error:
-            self._fail(error)
+            with LOCK:
+                self._fail(error)
             return
-        self._quick = coarse, restoration
-        self._show(frame, None)
+        with LOCK:
+            self._quick = coarse, restoration
+            self._show(frame, None)
 
     def restore(self, task: Task, delay: float = 0.0) -> None:
         """Carry a task out in full, after so many seconds unless something newer comes."""
