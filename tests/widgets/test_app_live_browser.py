@@ -2,6 +2,7 @@
 
 import re
 import time
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -90,13 +91,11 @@ def test_a_line_drawn_in_the_restored_pane_is_where_to_original_says(open_app):
     screen.button("Horizon").click()
     screen.button("next line").click()
     ends = np.array([(600.0, 600.0), (1400.0, 800.0), (3300.0, 700.0)])  # the last stretch crosses the fault
-    along = np.concatenate([a + (b - a) * np.linspace(0, 1, 40)[:, None] for a, b in zip(ends, ends[1:], strict=False)])
+    along = np.concatenate([a + (b - a) * np.linspace(0, 1, 40)[:, None] for a, b in pairwise(ends)])
     there = screen.points(f"app.restoration.to_original({along.tolist()})")
     before = set(screen.paths())
     screen.click(*ends, number=1)
-    screen.until(
-        "pen.drawing.under_way and np.allclose(pen.drawing.under_way.points[-1], %s, 0, 1)" % there[-1].tolist()
-    )
+    screen.until(f"pen.drawing.under_way and np.allclose(pen.drawing.under_way.points[-1], {there[-1].tolist()}, 0, 1)")
     under_way = away(screen, there, before)
     screen.press("Enter")
     screen.becomes("len(app.interpretation.horizons)", 4)
