@@ -14,22 +14,22 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.weights import Weights
 from seiswidgets.io.sources import SectionSource
-from seiswidgets.widgets.controls import DisplayControls, SolverControls
-from seiswidgets.widgets.filepanel import FilePanel
-from seiswidgets.widgets.frame import Frame
-from seiswidgets.widgets.histogram import DeformationHistogram
-from seiswidgets.widgets.linkedpanes import LinkedPanes
+from seiswidgets.widgets.files.filepanel import FilePanel
+from seiswidgets.widgets.files.sessionbar import SessionBar
+from seiswidgets.widgets.files.turning import Turning
 from seiswidgets.widgets.names import Names
-from seiswidgets.widgets.picker import Picker
-from seiswidgets.widgets.reports import Reports
-from seiswidgets.widgets.restorer import REST, Restorer
-from seiswidgets.widgets.sessionbar import SessionBar
-from seiswidgets.widgets.statusbar import StatusBar
-from seiswidgets.widgets.steplist import StepList
-from seiswidgets.widgets.timeline import Timeline
-from seiswidgets.widgets.turning import Turning
-from seiswidgets.widgets.weightsliders import WeightSliders
-from seiswidgets.widgets.worker import Worker
+from seiswidgets.widgets.picking.picker import Picker
+from seiswidgets.widgets.restoring.controls import DisplayControls, SolverControls
+from seiswidgets.widgets.restoring.frame import Frame
+from seiswidgets.widgets.restoring.histogram import DeformationHistogram
+from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
+from seiswidgets.widgets.restoring.reports import Reports
+from seiswidgets.widgets.restoring.restorer import REST, Restorer
+from seiswidgets.widgets.restoring.statusbar import StatusBar
+from seiswidgets.widgets.restoring.steplist import StepList
+from seiswidgets.widgets.restoring.timeline import Timeline
+from seiswidgets.widgets.restoring.weightsliders import WeightSliders
+from seiswidgets.widgets.restoring.worker import Worker
 
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."

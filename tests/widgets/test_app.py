@@ -7,8 +7,8 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import PickError
-from seiswidgets.widgets import restorer
 from seiswidgets.widgets.app import RestorationApp
+from seiswidgets.widgets.restoring import restorer
 from tests.widgets.hands import appear, drag_to, draw, press, release, tell
 
 LONG = 60  # seconds until a restoration must be done

@@ -95,7 +95,8 @@ def test_a_line_drawn_in_the_restored_pane_is_where_to_original_says(open_app):
     there = screen.points(f"app.restoration.to_original({along.tolist()})")
     before = set(screen.paths())
     screen.click(*ends, number=1)
-    screen.until(f"pen.drawing.under_way and np.allclose(pen.drawing.under_way.points[-1], {there[-1].tolist()}, 0, 1)")
+    last = f"np.allclose(pen.drawing.under_way.points[-1], {there[-1].tolist()}, 0, 1)"
+    screen.until(f"pen.drawing.under_way and {last}")
     under_way = away(screen, there, before)
     screen.press("Enter")
     screen.becomes("len(app.interpretation.horizons)", 4)

@@ -1,7 +1,7 @@
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.controls import SolverControls
+from seiswidgets.widgets.restoring.controls import SolverControls
 
 
 def test_only_a_hand_moves_the_mesh_spacing():

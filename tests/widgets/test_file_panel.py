@@ -10,9 +10,9 @@ import xarray
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
-from seiswidgets.widgets import sectionopener
 from seiswidgets.widgets.app import RestorationApp
-from seiswidgets.widgets.filefield import FileField
+from seiswidgets.widgets.files import sectionopener
+from seiswidgets.widgets.files.filefield import FileField
 from tests.widgets.files import line, send, volume
 from tests.widgets.hands import appear, draw
 
@@ -212,7 +212,7 @@ def test_uploads_are_held_against_their_size(monkeypatch):
     field = FileField("path")
     send(field, "cut.sgy", b"abc", size=4)
     assert "'cut.sgy' has 3 of 4 bytes" in field.error
-    monkeypatch.setattr("seiswidgets.widgets.filefield.MOST_UPLOADED", 2)
+    monkeypatch.setattr("seiswidgets.widgets.files.filefield.MOST_UPLOADED", 2)
     send(field, "long.sgy", b"abc")
     assert "there may be 2" in field.error
     assert field.path == ""

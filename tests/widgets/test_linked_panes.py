@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.frame import Frame
-from seiswidgets.widgets.linkedpanes import LinkedPanes
+from seiswidgets.widgets.restoring.frame import Frame
+from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
 from tests.widgets.hands import appear, tell
 
 

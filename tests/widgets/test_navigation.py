@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.navigation import KEYS, Navigation
-from seiswidgets.widgets.pointer import Happening
-from seiswidgets.widgets.view import View
+from seiswidgets.widgets.panes.navigation import KEYS, Navigation
+from seiswidgets.widgets.panes.pointer import Happening
+from seiswidgets.widgets.panes.view import View
 
 VIEW = View(sw.Section(np.zeros((200, 300)), dx=10, dz=5)).zoomed(3)
 

@@ -5,9 +5,9 @@ import pytest
 from PIL import Image
 
 import seiswidgets as sw
-from seiswidgets.widgets.canvas import encoded
-from seiswidgets.widgets.colours import resampled
-from seiswidgets.widgets.overlay import Mark, Overlay
+from seiswidgets.widgets.panes.canvas import encoded
+from seiswidgets.widgets.panes.colours import resampled
+from seiswidgets.widgets.panes.overlay import Mark, Overlay
 
 LEVELS, PALETTE = np.zeros((3, 4), np.uint8), np.zeros((256, 4), np.uint8)
 

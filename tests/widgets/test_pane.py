@@ -9,10 +9,10 @@ from ipycanvas.canvas import _CANVAS_MANAGER, COMMANDS
 from PIL import Image
 
 import seiswidgets as sw
-from seiswidgets.widgets.canvas import held
-from seiswidgets.widgets.gestures import DoubleClick, Key, Move, Press, Release
-from seiswidgets.widgets.overlay import Mark, Overlay, Stroke
-from seiswidgets.widgets.texture import FEW, MOST
+from seiswidgets.widgets.panes.canvas import held
+from seiswidgets.widgets.panes.gestures import DoubleClick, Key, Move, Press, Release
+from seiswidgets.widgets.panes.overlay import Mark, Overlay, Stroke
+from seiswidgets.widgets.panes.texture import FEW, MOST
 
 NAMES = {number: name for name, number in COMMANDS.items()}
 SIZE = {"kind": "size", "width": 800, "height": 400, "ratio": 2, "fresh": True}

@@ -45,7 +45,7 @@ ipywidgets.VBox([pane, other])
 PICKED = (
     CELL
     + """
-from seiswidgets.widgets.overlay import Mark, Overlay, Stroke
+from seiswidgets.widgets.panes.overlay import Mark, Overlay, Stroke
 x_min, x_max, z_min, z_max = pane.view.whole
 w, h = x_max - x_min, z_max - z_min
 at = lambda *points: np.array(points) * [w, h] + [x_min, z_min]
@@ -136,7 +136,7 @@ def place(opened, x, y):
 def until(opened, code):
     """Wait until an expression is true in the kernel."""
     for _ in range(50):
-        if opened.ask(f"bool({code})"):
+        if opened.holds(code):
             return
         time.sleep(0.1)
     pytest.fail(f"never true: {code}")

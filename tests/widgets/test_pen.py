@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 import seiswidgets as sw
 from seiswidgets.geology.cutoffs import heave, throw
-from seiswidgets.widgets import pen as module
-from seiswidgets.widgets.gestures import DoubleClick, Key, Move, Press, Release
-from seiswidgets.widgets.pen import Pen
-from seiswidgets.widgets.penstate import MODES
-from seiswidgets.widgets.sight import Sight
-from seiswidgets.widgets.snapping import followed, snapped
-from seiswidgets.widgets.view import View
+from seiswidgets.widgets.panes.gestures import DoubleClick, Key, Move, Press, Release
+from seiswidgets.widgets.panes.view import View
+from seiswidgets.widgets.picking import pen as module
+from seiswidgets.widgets.picking.pen import Pen
+from seiswidgets.widgets.picking.penstate import MODES
+from seiswidgets.widgets.picking.sight import Sight
+from seiswidgets.widgets.picking.snapping import followed, snapped
 
 SECTION = sw.Section(np.random.default_rng(1).normal(size=(61, 91)), dx=10.0, dz=10.0)  # 900 m x 600 m
 VIEW = View(SECTION, 910, 610)  # a pixel a metre

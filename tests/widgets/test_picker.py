@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.picker import Picker
+from seiswidgets.widgets.picking.picker import Picker
 from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
 
 FAULT = [(400.0, 100.0), (450.0, 300.0), (500.0, 500.0)]

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.sight import Sight
-from seiswidgets.widgets.view import View
+from seiswidgets.widgets.panes.view import View
+from seiswidgets.widgets.picking.sight import Sight
 
 
 @pytest.fixture(scope="module")

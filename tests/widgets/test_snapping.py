@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.snapping import EVENTS, followed, snapped
+from seiswidgets.widgets.picking.snapping import EVENTS, followed, snapped
 
 PERIOD = 14.0  # samples
 PHASE = {"peak": 0.25, "trough": 0.75, "zero-up": 0.0, "zero-down": 0.5}  # of a sine's period

@@ -5,9 +5,9 @@ import numpy as np
 from PIL import Image
 
 import seiswidgets as sw
-from seiswidgets.widgets.linkedpanes import LinkedPanes
-from seiswidgets.widgets.overlay import Stroke
-from seiswidgets.widgets.still import LEFT, SIZE, TOP
+from seiswidgets.widgets.panes.overlay import Stroke
+from seiswidgets.widgets.panes.still import LEFT, SIZE, TOP
+from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
 
 
 def test_both_panes_are_seen_with_their_lines():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.view import FARTHEST, FEWEST, View
+from seiswidgets.widgets.panes.view import FARTHEST, FEWEST, View
 
 NOISE = np.random.default_rng(1).normal(size=(200, 300))
 DEPTH = sw.Section(NOISE, dx=25.0, dz=10.0, x0=612_000.0, z0=-50.0)

@@ -3,7 +3,7 @@ import time
 
 import pytest
 
-from seiswidgets.widgets.worker import Worker
+from seiswidgets.widgets.restoring.worker import Worker
 
 
 @pytest.fixture

@@ -1,0 +1,75 @@
+"""The app's tab of files: a section in, picks in and out, results out, and the session."""
+
+from ipywidgets import HTML, Button, HBox, Layout, Text, VBox
+
+from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.widgets.files.picksfiles import PicksFiles
+from seiswidgets.widgets.files.question import Question
+from seiswidgets.widgets.files.resultfiles import ResultFiles
+from seiswidgets.widgets.files.sectionopener import SectionOpener
+
+HEADING = "<b>{}</b>"
+
+
+class FilePanel(VBox):
+    """All that an app reads and writes.
+
+    Parameters
+    ----------
+    app : RestorationApp
+
+    Attributes
+    ----------
+    section, picks, results, session : SectionOpener, PicksFiles, ResultFiles, SessionFile
+        The parts.
+    """
+
+    def __init__(self, app):
+        self.section, self.picks, self.results = SectionOpener(app), PicksFiles(app), ResultFiles(app)
+        self.session = SessionFile(app)
+        parts = {"Section": self.section, "Picks": self.picks, "Results": self.results, "Session": self.session}
+        super().__init__([child for title, part in parts.items() for child in (HTML(HEADING.format(title)), part)])
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until nothing is being opened; False if that took too long."""
+        return self.section.wait(timeout)
+
+    def end(self) -> None:
+        """Give up what is under way, and delete what was uploaded."""
+        self.section.end()
+        self.picks.end()
+
+
+class SessionFile(VBox):
+    """Where the app keeps its work by itself.
+
+    Parameters
+    ----------
+    app : RestorationApp
+
+    Attributes
+    ----------
+    path : Text
+    notice : Question
+        What is wrong.
+    """
+
+    def __init__(self, app):
+        self._app, self.notice = app, Question()
+        layout = Layout(flex="1", width="auto")
+        self.path = Text(placeholder="folder/name.json; without, nothing is saved by itself", layout=layout)
+        keep = Button(description="Keep work here", icon="save", layout=Layout(width="auto"))
+        super().__init__([HBox([self.path, keep]), self.notice])
+        keep.on_click(lambda _: self._keep())
+        app.keeper.observe(self._take_path, "path")
+
+    def _keep(self):
+        self.notice.hint("")
+        try:
+            self._app.session_path = self.path.value.strip() or None
+        except SeiswidgetsError as error:
+            self.notice.alert(str(error))
+
+    def _take_path(self, change):
+        if change.new is not None:
+            self.path.value = str(change.new)

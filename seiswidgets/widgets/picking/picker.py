@@ -1,0 +1,252 @@
+"""Draw faults and horizons on a section: a pane, its tools, and the list of what is picked."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
+from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
+
+from seiswidgets.errors import SettingError
+from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.section import Section
+from seiswidgets.widgets.panes.canvas import LOCK
+from seiswidgets.widgets.panes.gestures import Gesture, Key, Press, Release
+from seiswidgets.widgets.panes.pane import SectionPane
+from seiswidgets.widgets.picking.drawing import HORIZON, Drawing
+from seiswidgets.widgets.picking.pen import Pen
+from seiswidgets.widgets.picking.penstate import BLOCK, LOOK, MODES
+from seiswidgets.widgets.picking.pickslist import PicksList
+from seiswidgets.widgets.picking.sight import Sight
+from seiswidgets.widgets.picking.sketch import marks, rubber, strokes
+from seiswidgets.widgets.picking.snapping import EVENTS, followed, snapped
+from seiswidgets.widgets.ties import tie
+
+OFF = "off"
+ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
+KEYS = (
+    *("Enter", "Escape", "Delete", "Backspace", "Insert", "PageUp", "PageDown", " "),
+    *"lfhbiLFHBI",
+    *ARROWS,
+    *(f"Ctrl+{key}" for key in (*ARROWS, "z", "Z", "y", "Y")),
+)
+MODE_NAMES = {
+    LOOK: ("Look", "look, zoom and pan; select a line by clicking on it (L)"),
+    "fault": ("Fault", "click along a fault; double click or Enter finishes it (F)"),
+    HORIZON: ("Horizon", "click along a horizon; double click or Enter finishes a piece of it (H)"),
+    BLOCK: ("Hold", "click into the block that must stay where it is; again to let it go (B)"),
+}
+
+
+class Picker(VBox):
+    """A section on which faults and horizons are drawn; every edit can be undone.
+
+    The modes are look, fault, horizon, and hold. In fault and horizon mode a click adds a vertex, a double click or
+    Enter finishes the line, Escape drops it; a vertex or a cut-off is dragged, and removed by Ctrl-click or Delete.
+    The whole can be done by keyboard: L, F, H, B choose the mode, Enter shows a cursor which the arrows move, Space
+    puts a vertex there. The module `seiswidgets.widgets.picking.pen` has the table of all gestures.
+
+    Parameters
+    ----------
+    section : Section or SectionPane
+        What is drawn on, or the pane that shows it.
+    **settings
+        Initial values of the attributes.
+
+    Attributes
+    ----------
+    interpretation : Interpretation
+        What is drawn; may be set, which can be undone.
+    fixed : (x, z) or None
+        A point in the block that is held.
+    mode : {"look", "fault", "horizon", "block"}
+    snap : {"off", "peak", "trough", "zero-up", "zero-down"}
+        The event that a horizon's vertices snap to.
+    window : float
+        How many samples they may move.
+    follow : bool
+        Whether the line between two clicks follows the event.
+    dragging : bool
+        Whether something is being dragged.
+    drawing : Drawing
+        All that is drawn, with its looks, even what is not valid; it follows, but for a drag, which it waits for.
+    """
+
+    interpretation = Instance(Interpretation, ())
+    fixed = Any(None, allow_none=True)
+    mode = Enum(MODES, LOOK)
+    snap = Enum((OFF, *EVENTS), OFF)
+    window = Float(5.0)
+    follow = Bool(False)
+    dragging = Bool(False)
+    drawing = Instance(Drawing, ())
+
+    def __init__(self, section: Section | SectionPane, **settings):
+        self.pane = section if isinstance(section, SectionPane) else SectionPane(section)
+        self.pen = Pen(self.pane.view)
+        self._panes, self._grip, self._complaints, self._quiet = [], None, {}, False
+        self._told = self.pen.interpretation
+        self.list = PicksList(self.pen, self.refresh)
+        self.toolbar = self._made_toolbar()
+        super().__init__([self.toolbar, self.pane, self.list])
+        self.pane.observe(self._take_view, "view")
+        self.attach(self.pane, lambda: Sight(self.pane.view))
+        for name, value in settings.items():
+            setattr(self, name, value)
+        self.pen.forget()
+        self.refresh()
+
+    def attach(self, pane: SectionPane, sight: Callable[[], Sight]) -> None:
+        """Draw in a further pane too, which shows the section in a way of its own."""
+        self._panes.append((pane, sight))
+        pane.take_keys(KEYS)
+        pane.on_gesture(lambda gesture: self._handle(gesture, sight))
+        self.refresh()
+
+    def begin(self, drawing: Drawing) -> None:
+        """Start anew with other picks, on the section that the pane shows now; there is nothing to undo then."""
+        self.pen.begin(drawing)
+        self._grip, self._complaints = None, {}
+        self._set_snapping()
+        self.refresh()
+
+    def take(self, drawing: Drawing) -> None:
+        """Take other picks, with their looks; that can be undone."""
+        self.pen.edit(drawing)
+        self.refresh()
+
+    def complain(self, complaints: dict[str, str]) -> None:
+        """Say beside picks, by their names, what is wrong with them."""
+        self._complaints = dict(complaints)
+        self.list.update(self._wrong())
+
+    def refresh(self) -> None:
+        """Show what the pen holds, everywhere: first on the section of today, at last where the restoration matters."""
+        with LOCK:
+            self._draw(self._panes[:1])
+            self.list.update(self._wrong())
+            self._undo.disabled, self._redo.disabled = not self.pen.can_undo, not self.pen.can_redo
+            self._finish.disabled = self.pen.drawing.under_way is None
+            self._tell()
+            self._draw(self._panes[1:])
+
+    def redraw(self) -> None:
+        """Draw the lines anew in the panes that show the section in a way of their own, as that has changed."""
+        if not self._quiet:  # else they are drawn in a moment anyway
+            self._draw(self._panes[1:])
+
+    def _draw(self, panes):
+        cutoffs = self.pen.cutoffs() if panes else ()
+        for pane, sight in panes:
+            seen = sight()
+            pane.draw_lines(strokes(self.pen, seen))
+            pane.draw_marks(marks(self.pen, seen, cutoffs))
+            pane.rubber = rubber(self.pen, seen)
+
+    def _tell(self):
+        """Let the traits follow the pen."""
+        self._quiet = True
+        try:
+            self.mode, self.dragging = self.pen.state.mode, self.pen.state.drag is not None
+            self.fixed = self.pen.drawing.fixed
+            if not self.dragging:
+                self.drawing = self.pen.drawing
+            if self.pen.interpretation is not self._told:
+                self.interpretation = self._told = self.pen.interpretation
+        finally:
+            self._quiet = False
+
+    def _wrong(self):
+        return {**self._complaints, **dict(self.pen.problems)}
+
+    def _handle(self, gesture: Gesture, sight):
+        """Let the pen do what a gesture asks; during a drag, as the pane was when it began."""
+        seen = self._grip or sight()
+        if not isinstance(gesture, Key):
+            gesture = replace(gesture, point=seen.to_original(gesture.point))
+        before = self.pen.state
+        used = self.pen.handle(gesture, seen)
+        if isinstance(gesture, Press):
+            self._grip = seen if self.pen.state.drag else None
+        elif isinstance(gesture, Release):
+            self._grip = None
+        if self.pen.state != before:
+            self.refresh()
+        return used
+
+    def _take_view(self, change):
+        self.pen.view = self.pane.view
+
+    @validate("fixed")
+    def _valid_fixed(self, proposal):
+        if proposal.value is None:
+            return None
+        point = np.asarray(proposal.value, float)
+        if point.shape != (2,) or not np.isfinite(point).all():
+            raise SettingError(f"fixed must be a point (x, z) or None, but is {proposal.value!r}")
+        return tuple(point.tolist())
+
+    @observe("interpretation", "fixed", "mode")
+    def _take(self, change):
+        if self._quiet:
+            return
+        if change.name == "interpretation":
+            self.pen.load(change.new)
+            self._told = self.pen.interpretation  # the same as what was set, so that nobody is told twice
+        elif change.name == "fixed":
+            self.pen.hold(change.new)
+        else:
+            self.pen.enter(change.new)
+        self.refresh()
+
+    @observe("snap", "window", "follow")
+    def _set_snapping(self, change=None):
+        section, event, window = self.pane.section, self.snap, self.window
+        self.pen.snap = self.pen.follow = None
+        if event != OFF:
+            self.pen.snap = lambda point: snapped(section, point, event, window)
+            if self.follow:
+                self.pen.follow = lambda start, end: followed(section, start, end, event, max(20.0, 4 * window))
+
+    def _made_toolbar(self):
+        modes = ToggleButtons(
+            options=[(name, mode) for mode, (name, _) in MODE_NAMES.items()],
+            tooltips=[text for _, text in MODE_NAMES.values()],
+            style={"button_width": "auto"},
+        )
+        self._undo = _button("undo", "undo (Ctrl+Z)", self.pen.undo, self.refresh)
+        self._redo = _button("repeat", "do again (Ctrl+Y)", self.pen.redo, self.refresh)
+        self._finish = _button("check", "finish the line (Enter)", self.pen.finish, self.refresh)
+        new = _button("plus", "the next line is a horizon of its own (Escape)", self._begin_horizon, self.refresh)
+        snap = Dropdown(
+            options=[("no snapping", OFF), *((f"snap to {event}", event) for event in EVENTS)],
+            tooltip="what the vertices of horizons snap to",
+            layout=Layout(width="150px"),
+        )
+        follow = ToggleButton(
+            description="Follow", tooltip="lines between two clicks follow the event", layout=Layout(width="auto")
+        )
+        window = BoundedFloatText(
+            min=0.5, max=100, step=0.5, tooltip="samples that a vertex may move to snap", layout=Layout(width="64px")
+        )
+        for widget, name in ((modes, "mode"), (snap, "snap"), (window, "window"), (follow, "follow")):
+            tie(self, name, widget)
+        tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, window, follow])]
+        return Box(
+            tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 10px")
+        )
+
+    def _begin_horizon(self):
+        self.pen.enter(HORIZON)
+        self.pen.deselect()
+
+
+def _button(icon, tooltip, action, after):
+    def act(_):
+        with LOCK:
+            action()
+            after()
+
+    button = Button(icon=icon, tooltip=tooltip, layout=Layout(width="36px"))
+    button.on_click(act)
+    return button
