@@ -52,7 +52,7 @@ class AppScreen:
     def until(self, code, seconds=30):
         """Wait until an expression is true in the kernel."""
         end = time.monotonic() + seconds
-        while not self.ask(f"bool({code})"):
+        while not self.opened.holds(code):
             assert time.monotonic() < end, f"never true: {code}"
             time.sleep(0.05)
 

@@ -179,7 +179,16 @@ class Notebook(Page):
 
     def ask(self, code):
         """What an expression is in the kernel, by way of the notebook's own kernel connection."""
-        return json.loads(self.page.evaluate(ASK, f"import json; print(json.dumps({code}))"))
+        text, error = self.page.evaluate(ASK, f"import json; print(json.dumps({code}))")
+        if error:
+            raise RuntimeError(error)
+        return json.loads(text)
+
+    def holds(self, code):
+        """Whether an expression is true in the kernel; not while it cannot be evaluated, as when a list is empty."""
+        with contextlib.suppress(RuntimeError):
+            return self.ask(f"bool({code})")
+        return False
 
 
 READY = """() => {
@@ -195,13 +204,13 @@ EXECUTE = """([name, given]) => {
 ASK = """async (code) => {
   const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
   const future = kernel.requestExecute({ code, store_history: false });
-  let text = "";
+  let [text, error] = ["", ""];
   future.onIOPub = (message) => {
     if (message.header.msg_type === "stream") text += message.content.text;
-    if (message.header.msg_type === "error") text += JSON.stringify(message.content.traceback.join("\\n"));
+    if (message.header.msg_type === "error") error += message.content.traceback.join("\\n");
   };
   await future.done;
-  return text;
+  return [text, error];
 }"""
 
 

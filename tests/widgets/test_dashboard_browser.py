@@ -49,7 +49,7 @@ def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
     dashboard.screenshot(path=SCREENSHOTS / "dashboard.png")
 
     dashboard.get_by_label("with an interpreter's picks").check()
-    dashboard.get_by_label("Section").select_option("Graben")
+    dashboard.get_by_label("Section", exact=True).select_option("Graben")
     dashboard.get_by_text("Two faults, and between them").wait_for()
     is_painted(dashboard)
     is_restored(dashboard)

@@ -136,7 +136,7 @@ def place(opened, x, y):
 def until(opened, code):
     """Wait until an expression is true in the kernel."""
     for _ in range(50):
-        if opened.ask(f"bool({code})"):
+        if opened.holds(code):
             return
         time.sleep(0.1)
     pytest.fail(f"never true: {code}")
