@@ -113,6 +113,7 @@ class RestorationApp(Turning, VBox):
         self._restorer = Restorer(self._draw, self.status.tell, self._fail)
         self._moments = Moments(self.panes, self.picker.redraw)
         super().__init__(self._placed(), **picks, **settings)
+        self.add_class("seiswidgets-app")
         self._tie_parts()
         self._ready = True
         self._restore_soon()
@@ -267,8 +268,9 @@ class RestorationApp(Turning, VBox):
             error = f"this should not have happened: {type(error).__name__}: {error}"
         text = str(error)
         (self.status.alert if self._pressed else self.status.hint)(text)
-        names = (pick.name for pick in self.picker.pen.drawing.picks)
-        self.picker.complain({name: text for name in names if repr(name) in text})
+        places = {pick.name: text.find(repr(pick.name)) for pick in self.picker.drawing.picks}
+        named = sorted((place, name) for name, place in places.items() if place >= 0)
+        self.picker.complain({name: text for _, name in named[:1]})  # beside the one that it is about
         self._set_outdated(True)
 
     def _set_outdated(self, outdated):

@@ -166,3 +166,16 @@ def test_picks_to_start_with_cannot_be_undone(section):
     assert [fault.name for fault in picker.interpretation.faults] == ["F1"]
     assert picker.fixed == (100.0, 100.0)
     assert picker.toolbar.children[1].children[0].disabled
+
+
+def test_dots_of_a_dense_line_keep_apart_and_the_chosen_one_is_among_them(section):
+    dense = [(100.0 + 2 * number, 300.0) for number in range(100)]
+    picker = Picker(section, interpretation=sw.Interpretation(horizons=[sw.Horizon(dense, name="H1")]), mode="horizon")
+    appear(picker.pane)
+    keys(picker.pane, *["PageDown"] * 8)
+    (dots,) = (stroke for stroke in picker.pane.layer.strokes if stroke["dots"])
+    shown = np.array([point for point in dots["points"] if point])
+    assert dots["points"][dots["chosen"]] == [114.0, 300.0]
+    pixels = picker.pane.view.to_pixels(shown)
+    assert len(shown) < 40
+    assert sorted(np.hypot(*np.diff(pixels, axis=0).T))[1] >= 10  # but for the chosen one

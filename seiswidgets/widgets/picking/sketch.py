@@ -14,6 +14,7 @@ from seiswidgets.widgets.picking.sight import Sight
 UNDER_WAY = "#d81b60"
 WIDTHS = {True: 3.5, False: 2.0}  # css pixels, of what is selected and of what is not
 DASH = (6, 4)
+APART = 10.0  # css pixels between two dots of a line
 
 
 def strokes(pen: Pen, sight: Sight) -> list[Stroke]:
@@ -23,7 +24,7 @@ def strokes(pen: Pen, sight: Sight) -> list[Stroke]:
     drawn = [line.stroke(seen) for line, seen in zip(lines, shown, strict=True)]
     open_lines = [line for line in lines if line.is_open]
     places = sight.vertices([(line.points, line.spot.kind == FAULT) for line in open_lines])
-    return drawn + [line.dots(seen) for line, seen in zip(open_lines, places, strict=True)]
+    return drawn + [line.dots(seen, sight.view.pixel) for line, seen in zip(open_lines, places, strict=True)]
 
 
 @dataclass(frozen=True)
@@ -42,10 +43,12 @@ class _Line:
         label = (self.spot.name or "") if self.spot.piece == 0 else ""
         return Stroke(seen, self.colour, WIDTHS[self.is_selected], dash=self.dash, label=label)
 
-    def dots(self, seen):
-        alone = np.repeat(seen, 2, axis=0)  # vertices without lines between them
+    def dots(self, seen, pixel):
+        """Its vertices; where they are dense, not all of them, but the chosen one for certain."""
+        kept = _apart(seen / pixel, self.chosen)
+        alone = np.repeat(seen[kept], 2, axis=0)  # vertices without lines between them
         alone[1::2] = np.nan
-        chosen = None if self.chosen is None else 2 * self.chosen
+        chosen = None if self.chosen is None else 2 * kept.index(self.chosen)
         return Stroke(alone, self.colour, WIDTHS[self.is_selected], dots=True, chosen=chosen)
 
 
@@ -89,3 +92,12 @@ def rubber(pen: Pen, sight: Sight) -> list[tuple[float, float]]:
         return []
     (start,) = sight.to_pane([pen.rubber_band])
     return [tuple(start.tolist())] if np.isfinite(start).all() else []
+
+
+def _apart(pixels, chosen):
+    """The first of some points, and each that is far enough from the last one kept; and the chosen one."""
+    kept = []
+    for number, place in enumerate(pixels):
+        if not kept or number == chosen or not np.hypot(*(place - pixels[kept[-1]])) < APART:
+            kept.append(number)
+    return kept

@@ -34,7 +34,6 @@ class DisplayControls(VBox):
             (first, "clip", FloatSlider(min=50, max=100, step=0.5, description="clip (percentile)")),
             (first, "gain", FloatLogSlider(min=-1, max=1, step=0.02, description="gain", readout_format=".2f")),
             (first, "polarity", Dropdown(options=POLARITIES, description="polarity")),
-            (first, "exaggeration", BoundedFloatText(min=0.01, max=1000, step=0.1, description="vertical exagg. (×)")),
             (panes, "deformation", FloatSlider(min=0, max=1, step=0.05, description="deformation")),
             (panes, "mesh", FloatSlider(min=0, max=1, step=0.05, description="mesh")),
             (panes, "zoom_linked", Checkbox(description="both panes zoom together", indent=False)),
@@ -42,7 +41,24 @@ class DisplayControls(VBox):
         for owner, name, widget in rows:
             widget.layout, widget.style = WIDE, STYLE
             tie(owner, name, widget)
-        super().__init__([widget for _, _, widget in rows])
+        super().__init__([_exaggeration(first), *(widget for _, _, widget in rows)])
+
+
+def _exaggeration(pane):
+    """The vertical exaggeration, to three digits; the pane's own is changed only by who types another."""
+    text = BoundedFloatText(min=0.01, max=1000, step=0.1, description="vertical exagg. (×)", layout=WIDE, style=STYLE)
+
+    def rounded():
+        return float(f"{pane.exaggeration:.3g}")
+
+    def enter(change):
+        if change.new != rounded():
+            pane.exaggeration = change.new
+
+    text.value = rounded()
+    text.observe(enter, "value")
+    pane.observe(lambda change: setattr(text, "value", rounded()), "exaggeration")
+    return text
 
 
 class SolverControls(VBox):
