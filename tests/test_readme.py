@@ -20,8 +20,3 @@ def test_example_runs_as_it_is(example, tmp_path, monkeypatch, capsys):
     plt.close("all")
     assert "settled" in capsys.readouterr().out
     assert (tmp_path / "workflow.png").stat().st_size > 10_000
-
-
-@pytest.mark.parametrize("target", re.findall(r"\]\((?!https?:)([^)]+)\)", README))
-def test_what_it_links_to_is_there(target):
-    assert (ROOT / target).exists()
