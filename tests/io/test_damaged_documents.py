@@ -19,7 +19,7 @@ from tests.io.test_picks import (
     TIME,
 )
 
-EACH = 200  # mutations of each kind of file
+EACH = 110  # mutations of each kind of file
 EVIL = [
     *(b"NaN", b"Infinity", b"-inf", b"nan", b"1e999", b"1e308", b"-1e308", b"9" * 400, b"9" * 5000, b"0x10", b"1_0"),
     *(b"null", b"true", b'""', b"\\ud800", b"\\u0000", b"[" * 100_000, b'{"a":' * 50_000, b"[]", b"{}", b"-", b"->"),

@@ -11,7 +11,7 @@ from PIL import Image
 
 from tests.io.segyfiles import numbered, segy_bytes, straight, volume_headers
 
-COUNT = 250
+COUNT = 110
 WAVES = np.sin(np.arange(24 * 30).reshape(24, 30) / 5).astype(np.float32)
 
 

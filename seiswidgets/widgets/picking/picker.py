@@ -227,7 +227,13 @@ class Picker(VBox):
             description="Follow", tooltip="lines between two clicks follow the event", layout=Layout(width="auto")
         )
         window = BoundedFloatText(
-            min=0.5, max=100, step=0.5, tooltip="samples that a vertex may move to snap", layout=Layout(width="64px")
+            min=0.5,
+            max=100,
+            step=0.5,
+            description="± samples",
+            tooltip="how far a vertex may move to snap",
+            style={"description_width": "initial"},
+            layout=Layout(width="132px"),
         )
         for widget, name in ((modes, "mode"), (snap, "snap"), (window, "window"), (follow, "follow")):
             tie(self, name, widget)
