@@ -4,7 +4,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ipywidgets import Button, Checkbox, GridBox, HBox, Layout, Text, VBox
-from matplotlib import pyplot as plt
 
 from seiswidgets import plot
 from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
@@ -118,6 +117,8 @@ def _made(folder):
 
 
 def _write_figure(app, path):
+    from matplotlib import pyplot as plt  # slow to load: the app's first paint need not wait for it
+
     figure = plot.workflow(app.restoration, app.interpretation)
     try:
         with written(path) as draft:
