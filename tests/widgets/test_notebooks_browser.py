@@ -34,7 +34,7 @@ def test_all_cells_run_and_a_section_is_restored_by_mouse(notebook, lab):
     is_painted(opened.page)
     is_restored(opened.page)
 
-    opened.ask("setattr(app, 'interpretation', sw.Interpretation()), setattr(app, 'fixed', None)")
+    opened.ask("[setattr(app, 'interpretation', sw.Interpretation()), setattr(app, 'fixed', None)]")
     until(opened, "not app.restoration.stages")
     before = opened.page.evaluate(PICTURES)
     draw_faulted_fold(opened.page)
