@@ -27,14 +27,6 @@ def whole(name: str, value, least: int) -> int:
     return int(value)
 
 
-def index(name: str, value, count: int) -> int:
-    """The number of one of so many things, from 0, or a SettingError that names it."""
-    if not isinstance(value, int | np.integer) or not 0 <= value < count:
-        there = f"0 to {count - 1}" if count else "none yet"
-        raise SettingError(f"{name} must be the number of a stage ({there}), but is {value!r}")
-    return int(value)
-
-
 def points(rows) -> np.ndarray:
     """Points as an array of shape (n, 2)."""
     try:

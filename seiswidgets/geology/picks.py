@@ -1,12 +1,16 @@
 """What an interpreter draws on a section: faults, horizons, and both together."""
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 
 from seiswidgets.errors import PickError
+
+FAULT, HORIZON = "fault", "horizon"
+AT_ONCE = 64  # segments of a line that are looked at together for one that meets an earlier one
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +97,40 @@ class Interpretation:
         return _named(self.horizons, "horizon", name)
 
 
+def usable(drawn: Iterable) -> tuple[Interpretation, tuple]:
+    """What can be used of lines that were drawn, and what is wrong with the others.
+
+    Parameters
+    ----------
+    drawn : iterable of (kind, name, pieces)
+        "fault" or "horizon", its name, and lists of points (x, z): of a fault, one.
+
+    Returns
+    -------
+    interpretation : Interpretation
+    problems : tuple of (kind, name, number, message)
+        Of each piece that cannot be used, counted from 0.
+    """
+    made, problems = {FAULT: [], HORIZON: []}, []
+    for kind, name, pieces in drawn:
+        messages = [_problem(kind, name, pieces, number) for number in range(len(pieces))]
+        problems += [(kind, name, number, message) for number, message in enumerate(messages) if message]
+        good = [piece for piece, message in zip(pieces, messages, strict=True) if not message]
+        if good:
+            made[kind].append(Fault(*good, name=name) if kind == FAULT else Horizon(*good, name=name))
+    return Interpretation(made[FAULT], made[HORIZON]), tuple(problems)
+
+
+def _problem(kind, name, pieces, number):
+    """Why a piece cannot be used, or None."""
+    what = f"fault {name!r}" if kind == FAULT else f"piece {number + 1} of horizon {name!r}"
+    try:
+        _polyline(pieces[number], what)
+    except PickError as error:
+        return str(error)
+    return None
+
+
 def _named(picks, kind, name):
     for pick in picks:
         if pick.name == name:
@@ -125,10 +163,14 @@ def _self_crossing(line):
     """The first place where a polyline meets itself again."""
     line = line[np.append(True, (line[1:] != line[:-1]).any(axis=1))]
     segments = shapely.linestrings(np.stack([line[:-1], line[1:]], axis=1))
-    for number in range(1, len(segments)):
-        shared = shapely.intersection(segments[:number], segments[number])
-        again = ~shapely.is_empty(shared)
-        again[-1] = shapely.length(shared[-1]) > 0  # neighbours have a point in common anyway
+    tree = shapely.STRtree(segments)
+    for start in range(0, len(segments), AT_ONCE):
+        later, earlier = tree.query(segments[start : start + AT_ONCE], predicate="intersects")
+        later += start
+        pairs = np.column_stack([later, earlier])[earlier < later]
+        pairs = pairs[np.lexsort(pairs.T[::-1])]
+        shared = shapely.intersection(segments[pairs[:, 1]], segments[pairs[:, 0]])
+        again = (pairs[:, 0] - pairs[:, 1] > 1) | (shapely.length(shared) > 0)  # neighbours have a point in common
         if again.any():
             return shared[np.argmax(again)].centroid.coords[0]
     return tuple(line[0])

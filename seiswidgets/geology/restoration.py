@@ -18,7 +18,7 @@ from seiswidgets.geology.picture import picture
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solving import GAUSS_NEWTON, Options
 from seiswidgets.geology.stage import Stage
-from seiswidgets.geology.strain import area_ratio_at, even_points
+from seiswidgets.geology.strain import area_ratio_at
 from seiswidgets.geology.unfaulting import unfaulted
 from seiswidgets.geology.weights import Weights
 
@@ -234,32 +234,15 @@ class Restoration:
         part = () if time == whole else (self.stages[whole].part(time - whole),)
         return replace(self, stages=self.stages[:whole] + part)
 
-    def area_ratio_at(self, points, stage: int | None = None) -> np.ndarray:
-        """Initial over final area at points of the original section, NaN outside; shape (n,).
+    def area_ratio_at(self, points) -> np.ndarray:
+        """Initial over final area, of all stages together, at points of the original section; NaN outside.
 
         Parameters
         ----------
         points : array, shape (n, 2)
-            In the section's units.
-        stage : int, optional
-            The stage that counts, from 0; all of them together if left out.
-
-        Raises
-        ------
-        SettingError
-            If there is no such stage.
+            In the section's units; the result is of shape (n,).
         """
-        only = None if stage is None else asked.index("stage", stage, len(self.stages))
-        return area_ratio_at(self.stages, self.original.to_rock(asked.points(points)), only)
-
-    def area_ratio_sampled(self, count: int = 20_000, stage: int | None = None) -> np.ndarray:
-        """The area ratio at about so many places, each of which stands for the same area of the original section.
-
-        What a histogram needs. The places are the middles of equal cells; those that no triangle holds are left out.
-        Parameters and errors are those of ``area_ratio_at``.
-        """
-        ratio = self.area_ratio_at(even_points(self.original, asked.whole("count", count, least=1)), stage)
-        return ratio[np.isfinite(ratio)]
+        return area_ratio_at(self.stages, self.original.to_rock(asked.points(points)))
 
     @property
     def maps_to_restored(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:

@@ -2,13 +2,14 @@
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 from seiswidgets import __version__
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.io.reports import report_as_dict
+from seiswidgets.io.results import save_section
 from seiswidgets.io.session import Session, open_session
-from seiswidgets.io.sources import npz
 from seiswidgets.io.writing import write_whole
 
 
@@ -53,14 +54,11 @@ def replayed(
     steps = sum(step.on for step in session.plan.steps)
     counted = None if progress is None else _counted(progress, steps)
     restored = session.restore(counted, allow_changed=allow_changed)
-    contents = {  # endings that keep them from replacing the session or its section in the same folder
-        "-restored.npz": npz(restored.section),
-        "-report.txt": _text(path, session, restored).encode(errors="backslashreplace"),
-        "-report.json": _json(path, session, restored).encode(),
-    }
-    files = tuple(folder / f"{name}{ending}" for ending in contents)
-    for file, content in zip(files, contents.values(), strict=True):
-        write_whole(file, content)
+    endings = "-restored.npz", "-report.txt", "-report.json"  # which keep off the session and its section
+    section, text, report = files = tuple(folder / f"{name}{ending}" for ending in endings)
+    save_section(restored, section)
+    write_whole(text, _text(path, session, restored).encode(errors="backslashreplace"))
+    write_whole(report, _json(path, session, restored).encode())
     return Replay(session, restored, files)
 
 
@@ -91,20 +89,6 @@ def _text(path, session, restored):
 
 
 def _json(path, session, restored):
-    report = {
-        "session": str(path),
-        "seiswidgets": __version__,
-        "section_sha256": session.sha256,
-        "left_out": session.problems,
-        "stages": [asdict(stage.report) for stage in restored.stages],
-    }
-    return json.dumps(_finite(report), indent=1, allow_nan=False) + "\n"
-
-
-def _finite(value):
-    """Null for what is not finite, which JSON cannot hold."""
-    if isinstance(value, dict):
-        return {key: _finite(part) for key, part in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(part) for part in value]
-    return None if isinstance(value, float) and value - value != 0 else value
+    about = {"session": str(path), "seiswidgets": __version__, "section_sha256": session.sha256}
+    report = {**about, "left_out": session.problems, **report_as_dict(restored)}
+    return json.dumps(report, indent=1, allow_nan=False) + "\n"

@@ -7,14 +7,13 @@ from pathlib import Path
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, PickError
-from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io import sessionfile
 from seiswidgets.io.document import LARGEST_JSON, check_size
-from seiswidgets.io.picks.lines import FAULT, HORIZON
-from seiswidgets.io.savedpicks import SavedPick, saved, usable
+from seiswidgets.io.savedpicks import SavedPick, saved
 from seiswidgets.io.sources import SectionSource, section_sha256
 from seiswidgets.io.writing import write_whole
 
@@ -121,12 +120,17 @@ class Session:
     @property
     def interpretation(self) -> Interpretation:
         """The picks that can be restored with."""
-        return usable(self.faults, self.horizons)[0]
+        return self._usable[0]
 
     @property
     def problems(self) -> list[str]:
         """What is wrong with each line that cannot; it is left out."""
-        return usable(self.faults, self.horizons)[1]
+        return [message for *_, message in self._usable[1]]
+
+    @property
+    def _usable(self):
+        kinds = ((FAULT, self.faults), (HORIZON, self.horizons))
+        return usable((kind, pick.name, pick.pieces) for kind, picks in kinds for pick in picks)
 
     def open_section(self, *, allow_changed: bool = False) -> Section:
         """The section, from its source.

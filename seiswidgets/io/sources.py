@@ -2,7 +2,6 @@
 
 import hashlib
 import inspect
-import io
 import json
 import os
 from collections.abc import Mapping
@@ -75,7 +74,7 @@ class SectionSource:
     @property
     def keywords(self) -> dict:
         """The choices as functions take them, slices and ranges among them."""
-        return {name: _revived(value) for name, value in self.choices.items()}
+        return _keywords(self.choices)
 
     def open(self) -> Section:
         """The section.
@@ -86,7 +85,7 @@ class SectionSource:
             If it cannot be opened, or not with these choices.
         """
         if self.kind == FILE:
-            return _called(_open_file, self.choices, Path(self.name))
+            return _called(open_section, self.choices, Path(self.name))
         if self.kind == DATASET:
             return _called(getattr(datasets, self.name), self.choices)
         return _called(partial(_synthetic, self.name), self.choices)
@@ -122,6 +121,10 @@ def _plain(name, value):
     )
 
 
+def _keywords(choices):
+    return {name: _revived(value) for name, value in choices.items()}
+
+
 def _revived(value):
     """A slice or a range from how JSON holds it; other values as they are."""
     for kind in (slice, range):
@@ -134,8 +137,9 @@ def _revived(value):
 
 def _called(function, choices, *arguments):
     try:
-        inspect.signature(function).bind(*arguments, **choices)
-        return function(*arguments, **choices)
+        keywords = _keywords(choices)
+        inspect.signature(function).bind(*arguments, **keywords)
+        return function(*arguments, **keywords)
     except SeiswidgetsError:
         raise
     except (TypeError, ValueError) as error:
@@ -150,19 +154,6 @@ def _synthetic(function, **choices):
     if samples > MOST_SAMPLES:
         raise SettingError(f"a synthetic section of {samples:.0f} samples is too large; make dx or dz larger")
     return getattr(synthetic, function)(**choices).section
-
-
-def _open_file(path, **choices):
-    """The one place where a session opens a file."""
-    return open_section(path, **{name: _revived(value) for name, value in choices.items()})
-
-
-def npz(section: Section) -> bytes:
-    """A section as the content of a .npz: ``amplitude``, and one number or text for each other field that it has."""
-    values = {name.name: getattr(section, name.name) for name in fields(Section)}
-    content = io.BytesIO()
-    np.savez_compressed(content, **{name: value for name, value in values.items() if value is not None})
-    return content.getvalue()
 
 
 def resolved(folder: Path, name: str, allow_outside: bool) -> Path:

@@ -1,7 +1,11 @@
 """Whatever is wrong with what a person gives is said in their own terms, and nothing is changed by it."""
 
+import re
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from shapely import LineString
 
 import seiswidgets as sw
 
@@ -380,3 +384,28 @@ def test_a_horizon_with_repeated_points(start):
         start.unfault(FAULT, sw.Horizon(*lines), fixed=(100, 100)).stages[-1] for lines in (pieces, repeated)
     )
     np.testing.assert_allclose(again.vertices, once.vertices, atol=1e-6)
+
+
+def test_a_long_line_is_told_where_it_first_meets_itself():
+    """Against all pairs of segments, one after the other."""
+    rng = np.random.default_rng(4)
+    for size in (40, 200, 400):
+        line = rng.normal(size=(size, 2)).cumsum(axis=0)
+        segments = [LineString(pair) for pair in pairwise(line)]
+        first = next(
+            later.intersection(earlier)
+            for number, later in enumerate(segments)
+            for earlier in segments[: max(0, number - 1)]
+            if later.intersects(earlier)
+        )
+        with pytest.raises(sw.PickError, match=re.escape(f"near x={first.x:g}, z={first.y:g}")):
+            sw.Fault(line, "F1")
+
+
+def test_a_very_long_line_is_told_so_soon():
+    x = np.arange(200_000.0)
+    line = np.column_stack([x, np.sin(x / 50)])
+    line[-1] = line[-5] + (0.3, 1.0)  # back over itself at its very end
+    line[-2] = line[-5] + (0.3, -1.0)
+    with pytest.raises(sw.PickError, match="crosses itself near x=199995"):
+        sw.Fault(line, "F1")

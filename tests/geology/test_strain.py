@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.core.mesh import triangle_areas
 from tests.geology.test_restoration import random_points, restored_in_two_stages
 
 
@@ -25,8 +26,10 @@ def test_today_nothing_has_changed(fold):
 
 def test_the_ratio_is_the_product_of_the_stages(fold):
     points = random_points(fold.original, 3000)
-    stages = [fold.area_ratio_at(points, stage=stage) for stage in (0, 1)]
-    np.testing.assert_allclose(fold.area_ratio_at(points), stages[0] * stages[1], rtol=1e-12)
+    first = sw.Restoration(fold.original, stages=fold.stages[:1])
+    there = fold.original.to_rock(first.to_restored(points))
+    second = fold.stages[1].area_ratio[fold.stages[1].map.source_finder(there)]
+    np.testing.assert_allclose(fold.area_ratio_at(points), first.area_ratio_at(points) * second, rtol=1e-12)
 
 
 def test_the_ratio_is_what_a_small_square_does(fold):
@@ -44,32 +47,13 @@ def test_the_ratio_is_what_a_small_square_does(fold):
     assert alike.mean() > 0.99  # a few squares lie across an edge of the mesh
 
 
-@pytest.mark.parametrize("stage", [None, 0])
-def test_the_sampled_ratios_add_up_to_the_area_after(fold, stage):
-    after = (fold.stages[-1] if stage is None else fold.stages[stage]).vertices
-    mesh = (fold.stages[-1] if stage is None else fold.stages[stage]).mesh
-    triangles = after[mesh.triangles]
-    (ax, az), (bx, bz) = (np.moveaxis(triangles[:, k] - triangles[:, 0], -1, 0) for k in (1, 2))
-    area = np.sum(ax * bz - az * bx) / 2
-    sampled = fold.area_ratio_sampled(100_000, stage=stage)
-    assert np.mean(1 / sampled) * fold.stages[0].mesh.areas.sum() == pytest.approx(area, rel=1e-3)
-
-
-@pytest.mark.parametrize("count", [1, 500, 20_000])
-def test_about_so_many_places_are_sampled(fold, count):
-    assert len(fold.area_ratio_sampled(count)) == pytest.approx(count, rel=0.05)
+def test_the_ratios_of_equal_cells_add_up_to_the_area_after(fold):
+    x_min, x_max, z_min, z_max = fold.original.extent
+    x, z = (low + (high - low) * (np.arange(300) + 0.5) / 300 for low, high in ((x_min, x_max), (z_min, z_max)))
+    ratio = fold.area_ratio_at(np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2))
+    after = triangle_areas(fold.stages[-1].vertices, fold.stages[-1].mesh.triangles).sum()
+    assert np.nanmean(1 / ratio) * fold.stages[0].mesh.areas.sum() == pytest.approx(after, rel=1e-3)
 
 
 def test_outside_there_is_no_ratio(fold):
     assert np.isnan(fold.area_ratio_at([(-1e4, 0), (0, 1e5), (np.nan, 3)])).all()
-
-
-@pytest.mark.parametrize("stage", [2, -1, 0.5])
-def test_a_stage_that_is_not_there(fold, stage):
-    with pytest.raises(sw.SettingError, match=r"stage must be the number of a stage \(0 to 1\)"):
-        fold.area_ratio_at([(0, 0)], stage=stage)
-
-
-def test_no_places_at_all(fold):
-    with pytest.raises(sw.SettingError, match="count must be a whole number of 1 or more"):
-        fold.area_ratio_sampled(0)

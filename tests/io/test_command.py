@@ -10,7 +10,6 @@ import pytest
 import seiswidgets as sw
 from seiswidgets import __main__ as command
 from seiswidgets.io.replay import output_names
-from seiswidgets.io.sources import npz
 
 ROOT = Path(__file__).parents[2]
 PLAN = sw.Plan(spacing=90.0)
@@ -66,7 +65,7 @@ def test_it_writes_the_section_and_the_reports(saved, tmp_path, capsys):
 
 def test_results_in_the_same_folder_leave_the_session_and_its_section(tmp_path, capsys):
     case = sw.synthetic.tilt()
-    (tmp_path / "line.npz").write_bytes(npz(case.section))
+    sw.save_section(case.section, tmp_path / "line.npz")
     source = sw.SectionSource("file", str(tmp_path / "line.npz"))
     sw.Session.of(case.section, source, case.interpretation, None, PLAN).save(tmp_path / "line.json")
     before = {file: file.read_bytes() for file in tmp_path.iterdir()}
@@ -107,7 +106,7 @@ def test_lines_left_out_are_told(saved, tmp_path, capsys):
 
 def test_a_section_outside_or_changed_must_be_allowed(saved, tmp_path, capsys):
     document = json.loads(saved.read_text())
-    (tmp_path / "line.npz").write_bytes(npz(sw.synthetic.faulted_fold(seed=1).section))
+    sw.save_section(sw.synthetic.faulted_fold(seed=1).section, tmp_path / "line.npz")
     document["section"]["source"] = {"kind": "file", "path": "../line.npz"}
     saved.write_text(json.dumps(document))
     call = ["restore", str(saved), "--out", str(tmp_path / "out")]

@@ -10,7 +10,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.errors import DataError, PickError, SettingError
 from seiswidgets.io.savedpicks import SavedPick
-from seiswidgets.io.sources import _revived, npz, section_sha256
+from seiswidgets.io.sources import _revived, section_sha256
 from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.sections import real_section
 
@@ -53,7 +53,7 @@ def changed(saved, change):
 def with_file(tmp_path, section):
     """A session whose section is a file in its folder."""
     (tmp_path / "data").mkdir()
-    (tmp_path / "data" / "line.npz").write_bytes(npz(section))
+    sw.save_section(section, tmp_path / "data" / "line.npz")
     return sw.SectionSource("file", str(tmp_path / "data" / "line.npz"))
 
 
@@ -170,7 +170,7 @@ def test_a_section_that_differs_is_told_of(case, tmp_path):
     amplitude = case.section.amplitude.copy()
     amplitude[3, 4] += 1e-3
     other = replace(case.section, amplitude=amplitude)
-    (tmp_path / "data" / "line.npz").write_bytes(npz(other))
+    sw.save_section(other, tmp_path / "data" / "line.npz")
     with pytest.raises(DataError, match=r"line.npz' is not the one that the session was made on.*allow_changed=True"):
         session.restore()
     assert session.restore(allow_changed=True).stages
@@ -198,7 +198,7 @@ def test_the_hash_leaves_out_names_and_kinds_of_nan(case):
 def test_paths_cannot_leave_the_folder_unless_allowed(case, saved, tmp_path):
     outside = tmp_path.with_name(f"{tmp_path.name}-outside")
     outside.mkdir()
-    (outside / "line.npz").write_bytes(npz(case.section))
+    sw.save_section(case.section, outside / "line.npz")
     (tmp_path / "link.npz").symlink_to(outside / "line.npz")
     (tmp_path / "folder").symlink_to(outside)
     for name in (f"../{outside.name}/line.npz", str(outside / "line.npz"), "link.npz", "folder/line.npz"):

@@ -12,6 +12,7 @@ from seiswidgets.geology.cutoffs import heave, throw
 from seiswidgets.widgets.panes.gestures import DoubleClick, Key, Move, Press, Release
 from seiswidgets.widgets.panes.view import View
 from seiswidgets.widgets.picking import pen as module
+from seiswidgets.widgets.picking.drawing import Drawing
 from seiswidgets.widgets.picking.pen import Pen
 from seiswidgets.widgets.picking.penstate import MODES
 from seiswidgets.widgets.picking.sight import Sight
@@ -29,6 +30,11 @@ PICKS = sw.Interpretation(  # a horizon of two pieces that end at the fault, and
 )
 
 
+def pen_of(view, interpretation, fixed=None):
+    """A pen that starts with some picks."""
+    return Pen(view, Drawing().with_interpretation(interpretation).held(fixed))
+
+
 @pytest.fixture
 def pen():
     return Pen(VIEW)
@@ -36,7 +42,7 @@ def pen():
 
 @pytest.fixture
 def drawn():
-    return Pen.from_interpretation(VIEW, PICKS, (100.0, 100.0))
+    return pen_of(VIEW, PICKS, (100.0, 100.0))
 
 
 def press(pen, point, modifiers=frozenset(), button=0):
@@ -373,7 +379,7 @@ def press_in(sight, pen, point):
 
 def test_vertices_are_taken_where_the_restored_pane_shows_them(slipped):
     case, _, sight = slipped
-    pen = Pen.from_interpretation(View(case.section), case.interpretation)
+    pen = pen_of(View(case.section), case.interpretation)
     pen.enter("horizon")
     vertex = case.interpretation.horizons[0].pieces[0][0]
     (shown,) = sight.to_pane([vertex])
@@ -623,7 +629,7 @@ CASES = [sw.synthetic.graben(), sw.synthetic.faulted_fold(), sw.synthetic.domino
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.section.name)
 def test_interpretation_there_and_back(case):
-    given_in, pen = case.interpretation, Pen.from_interpretation(View(case.section), case.interpretation)
+    given_in, pen = case.interpretation, pen_of(View(case.section), case.interpretation)
     back = pen.interpretation
     assert [fault.name for fault in back.faults] == [fault.name for fault in given_in.faults]
     assert [horizon.name for horizon in back.horizons] == [horizon.name for horizon in given_in.horizons]
@@ -666,7 +672,7 @@ def test_cutoffs_are_numbered_by_fault_and_horizon(drawn):
 
 @pytest.mark.parametrize("case", CASES[:2], ids=lambda case: case.section.name)
 def test_cutoffs_of_a_synthetic_section(case):
-    marks = Pen.from_interpretation(View(case.section), case.interpretation).cutoffs()
+    marks = pen_of(View(case.section), case.interpretation).cutoffs()
     for fault in case.interpretation.faults:
         for horizon in case.interpretation.horizons:
             found = {m.wall: m.point for m in marks if (m.fault, m.horizon) == (fault.name, horizon.name)}
@@ -876,7 +882,7 @@ SOON = settings(
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
-DRAWN = Pen.from_interpretation(VIEW, PICKS).drawing
+DRAWN = pen_of(VIEW, PICKS).drawing
 
 
 @SOON

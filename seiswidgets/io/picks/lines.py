@@ -4,15 +4,10 @@ import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
-import shapely
-
 from seiswidgets.errors import DataError, PickError
-from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.picks import FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.section import METRES, SECONDS, Section
 from seiswidgets.io.document import shortened
-
-FAULT, HORIZON = "fault", "horizon"
-LONG = 2_000  # points; in a longer line the place of a crossing is not looked for, which takes seconds there
 
 Points = tuple[tuple[float, float], ...]
 
@@ -59,10 +54,6 @@ def _pick(path, kind, name, pieces):
             f"{path}: {pieces[1].place} is a second line of fault {shortened(repr(name))}, after {pieces[0].place}; a "
             "fault is one line, so give each a name of its own"
         )
-    for piece in pieces:
-        if len(piece.points) > LONG and not shapely.LineString(piece.points).is_simple:
-            shown = shortened(repr(name))
-            raise DataError(f"{path}: {piece.place} crosses or touches itself, as part of {kind} {shown}; redraw it")
     points = [piece.points for piece in pieces]
     try:
         return Fault(points[0], name) if kind == FAULT else Horizon(*points, name=name)

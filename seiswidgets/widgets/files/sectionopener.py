@@ -125,13 +125,12 @@ class SectionOpener(VBox):
 
     def _take(self, section, source):
         """Show a section, once it is agreed what becomes of the picks."""
-        drawn, old = self._app.picker.drawing, self._app.section
+        drawn = self._app.picker.drawing
         keep, drop = partial(self._show, section, drawn, source), partial(self._show, section, Drawing(), source)
         if not drawn.picks:
             drop()
             return
-        same = (section.x_unit, section.z_unit) == (old.x_unit, old.z_unit)
-        answers = {KEEP: keep} if same and drawn.lies_on(section) else {}
+        answers = {KEEP: keep} if self._app.picks_fit(section) else {}
         fate = "lie on the new section too" if answers else "do not lie on the new section, and cannot be kept"
         text = f"The {len(drawn.picks)} picks {fate}. Dropped ones cannot be brought back by undo: export them first."
         self.notice.ask(text, {**answers, DROP: drop, BACK: lambda: None})

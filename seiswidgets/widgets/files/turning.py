@@ -23,9 +23,12 @@ class Turning:
 
     @section.setter
     def section(self, section: Section):
+        self.begin(section, self.picker.drawing if self.picks_fit(section) else Drawing())
+
+    def picks_fit(self, section: Section) -> bool:
+        """Whether all that is drawn lies on another section too, and in the same units."""
         same = (section.x_unit, section.z_unit) == (self.section.x_unit, self.section.z_unit)
-        drawn = self.picker.drawing
-        self.begin(section, drawn if same and drawn.lies_on(section) else Drawing())
+        return same and self.picker.drawing.lies_on(section)
 
     @property
     def session_path(self) -> Path | None:

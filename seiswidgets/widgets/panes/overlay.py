@@ -44,7 +44,8 @@ class Stroke:
     def state(self) -> dict:
         """It as the layer in the browser knows it: points that cannot be drawn are None."""
         points = np.reshape(np.asarray(self.points, float), (-1, 2))
-        places = [point if np.isfinite(point).all() else None for point in points.tolist()]
+        seen = np.isfinite(points).all(axis=1).tolist()
+        places = [point if there else None for point, there in zip(points.tolist(), seen, strict=True)]
         style = {"colour": self.colour, "width": self.width, "dots": self.dots, "dash": list(self.dash)}
         return {"points": places, **style, "label": self.label, "chosen": self.chosen}
 

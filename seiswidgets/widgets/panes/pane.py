@@ -9,6 +9,7 @@ from traitlets import Any, Enum, Float, Instance, Int, Unicode, dlink, observe, 
 
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.section import Section
+from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.panes.canvas import LOCK, held
 from seiswidgets.widgets.panes.colours import Colouring, clip_limit, colour_map
 from seiswidgets.widgets.panes.gestures import Gesture
@@ -20,7 +21,6 @@ from seiswidgets.widgets.panes.view import View, checked_window
 
 LEFT, TOP, RIGHT, BOTTOM = 64, 10, 16, 42  # css pixels about the plot area, for the axes
 QUIET = ("hover", "leave", "rest", "size")  # what happens without anybody doing anything, and leaves the message alone
-MESSAGE = '<div role="alert" style="color: var(--jp-error-color1, #b71c1c); line-height: 1.4">{}</div>'
 
 
 class SectionPane(VBox):
@@ -231,7 +231,7 @@ class SectionPane(VBox):
 
     @observe("message")
     def _show_message(self, change):
-        self._line.value = MESSAGE.format(escape(self.message))
+        self._line.value = TROUBLE.format(escape(self.message))
         self._line.layout.display = "" if self.message else "none"
 
     def _receive(self, happening: Happening):

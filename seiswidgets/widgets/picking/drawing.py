@@ -7,10 +7,9 @@ from functools import lru_cache
 import numpy as np
 
 from seiswidgets.errors import PickError, SettingError
-from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
 from seiswidgets.geology.section import Section
 
-FAULT, HORIZON = "fault", "horizon"
 LETTERS = {FAULT: "F", HORIZON: "H"}
 COLOURS = {  # told apart by the colour-blind, on grey and on red-white-blue
     FAULT: ("#e69f00", "#f0e442", "#ff5fa2", "#c77cff", "#ffb000"),
@@ -19,6 +18,7 @@ COLOURS = {  # told apart by the colour-blind, on grey and on red-white-blue
 
 Point = tuple[float, float]
 Points = tuple[Point, ...]
+_usable = lru_cache(maxsize=64)(usable)  # asked for at every look at a drawing
 
 
 @dataclass(frozen=True)
@@ -236,7 +236,7 @@ class Drawing:
 
     @property
     def _checked(self):
-        return _checked(tuple((pick.kind, pick.name, pick.pieces) for pick in self.picks))
+        return _usable(tuple((pick.kind, pick.name, pick.pieces) for pick in self.picks))
 
     def _with(self, kind, name, /, **changes):
         old = self.pick(kind, name)
@@ -254,29 +254,6 @@ class Drawing:
         """The colour least used so far."""
         used = [pick.colour for pick in self.picks]
         return min(COLOURS[kind], key=used.count)
-
-
-@lru_cache(maxsize=64)
-def _checked(picks):
-    """The interpretation of kinds, names and pieces, and what is wrong: kind, name, piece and message of each line."""
-    found, problems = {FAULT: [], HORIZON: []}, []
-    for kind, name, pieces in picks:
-        bad = {number: message for number in range(len(pieces)) if (message := _problem(kind, name, pieces, number))}
-        problems += [(kind, name, number, message) for number, message in bad.items()]
-        good = [points for number, points in enumerate(pieces) if number not in bad]
-        if good:
-            found[kind].append((Fault if kind == FAULT else Horizon)(*good, name=name))
-    return Interpretation(found[FAULT], found[HORIZON]), tuple(problems)
-
-
-def _problem(kind, name, pieces, number):
-    """Why a piece cannot be used, or None."""
-    before = [[(0, 0), (1, 0)]] * number  # so that the message has the piece's own number
-    try:
-        Fault(pieces[0], name) if kind == FAULT else Horizon(*before, pieces[number], name=name)
-    except PickError as error:
-        return str(error)
-    return None
 
 
 def _points(points):

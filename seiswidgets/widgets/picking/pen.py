@@ -74,11 +74,6 @@ class Pen:
         self.before_press = self.drawing
         self.sight = Sight(view)
 
-    @classmethod
-    def from_interpretation(cls, view: View, interpretation: Interpretation, fixed=None, **options) -> "Pen":
-        """A pen that starts with these picks."""
-        return cls(view, Drawing().with_interpretation(interpretation).held(fixed), **options)
-
     @property
     def drawing(self) -> Drawing:
         """All that is picked, the line under way included."""

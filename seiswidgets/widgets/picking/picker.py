@@ -123,20 +123,20 @@ class Picker(VBox):
     def refresh(self) -> None:
         """Show what the pen holds, everywhere: first on the section of today, at last where the restoration matters."""
         with LOCK:
-            self._draw(self._panes[:1])
+            cutoffs = self.pen.cutoffs()
+            self._draw(self._panes[:1], cutoffs)
             self.list.update(self._wrong())
             self._undo.disabled, self._redo.disabled = not self.pen.can_undo, not self.pen.can_redo
             self._finish.disabled = self.pen.drawing.under_way is None
             self._tell()
-            self._draw(self._panes[1:])
+            self._draw(self._panes[1:], cutoffs)
 
     def redraw(self) -> None:
         """Draw the lines anew in the panes that show the section in a way of their own, as that has changed."""
         if not self._quiet:  # else they are drawn in a moment anyway
-            self._draw(self._panes[1:])
+            self._draw(self._panes[1:], self.pen.cutoffs())
 
-    def _draw(self, panes):
-        cutoffs = self.pen.cutoffs() if panes else ()
+    def _draw(self, panes, cutoffs):
         for pane, sight in panes:
             seen = sight()
             pane.draw_lines(strokes(self.pen, seen))

@@ -1,20 +1,11 @@
 // Bars of the area ratio's distribution. Everything is drawn, and brushed, in the browser; the kernel is told the brush.
 
-const SVG = "http://www.w3.org/2000/svg";
 const [LEFT, RIGHT, TOP, BOTTOM] = [46, 22, 4, 38]; // css pixels about the bars, for the axes
 const ROOM = 1.12; // the axis is so much higher than the highest bar, for the mark above it
 const WIDE = 400; // css pixels from which there is room for the whole title
 const TITLES = ["Area ratio (–): < 1 expansion, > 1 compression", "Area ratio, initial / final (–): < 1 expansion, > 1 compression"];
 const HELP = "Arrow keys brush a bar, with Shift several; Escape clears.";
 const PAUSE = 50; // ms between two messages
-
-function element(name, className, parent, attributes = {}) {
-  const made = document.createElementNS(SVG, name);
-  made.setAttribute("class", className);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  parent.append(made);
-  return made;
-}
 
 function line(className, parent) {
   const made = document.createElement("div");

@@ -10,6 +10,7 @@ from traitlets import Dict, Float, List, Unicode, observe, validate
 
 from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
 from seiswidgets.errors import SettingError
+from seiswidgets.widgets.panes.pointer import LAYER, joined
 from seiswidgets.widgets.panes.ratiocolours import RatioColouring
 
 HERE = Path(__file__).parent
@@ -49,7 +50,7 @@ class DeformationHistogram(anywidget.AnyWidget):
         If there is no bin, or the brush is not a range of ratios above 0; and as for `show`.
     """
 
-    _esm = HERE / "histogram.js"
+    _esm = joined(LAYER / "svg.js", HERE / "histogram.js")
     _css = HERE / "histogram.css"
 
     bars = Dict().tag(sync=True)

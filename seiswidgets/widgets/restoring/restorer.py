@@ -62,11 +62,6 @@ class Restorer:
         self._worker = Worker()
         self._quick = self._full = None  # the newest (task, restoration) of either kind
 
-    @property
-    def busy(self) -> bool:
-        """Whether a full restoration is under way or due."""
-        return self._worker.busy
-
     def glance(self, task: Task) -> None:
         """Make a quick look of a task and draw it, if that can be done at once."""
         self._worker.cancel()
