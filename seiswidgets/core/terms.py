@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, kron
 
 from seiswidgets.core.meanvalue import mean_value_matrix
 from seiswidgets.core.mesh import Mesh, triangle_areas
@@ -43,7 +43,7 @@ class MeanValue:
         return (self.rows @ vertices).ravel()
 
     def jacobian(self, vertices):
-        return both_coordinates(self.rows)
+        return kron(self.rows, np.eye(2), format="csr")
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +174,7 @@ class Stitch:
         return (self.rows @ vertices).ravel()
 
     def jacobian(self, vertices):
-        return both_coordinates(self.rows)
+        return kron(self.rows, np.eye(2), format="csr")
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,14 +240,6 @@ class AreaBarrier:
 def coordinates(vertices):
     """Columns of the x and z of each vertex, side by side: shape (r, k) to (r, 2 k)."""
     return (2 * vertices[..., None] + [0, 1]).reshape(len(vertices), 2 * vertices.shape[1])
-
-
-def both_coordinates(rows):
-    """Rows over vertices as rows over their coordinates, one for x and one for z: the Kronecker product with 2 x 2."""
-    entries = rows.tocoo()
-    row, column = (2 * index[:, None] + [0, 1] for index in entries.coords)
-    shape = 2 * rows.shape[0], 2 * rows.shape[1]
-    return csr_array((np.repeat(entries.data, 2), (row.ravel(), column.ravel())), shape=shape)
 
 
 def sparse_rows(columns, data, width):

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 import shapely
 from shapely import LineString, Point
+from shapely.ops import substring
 
 EXTENSION = 0.2  # of a piece's length: how far it is extended to a fault, and how short an overshoot is
 
@@ -85,7 +86,7 @@ def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1
     for (start, first), (stop, last) in pairwise(stops):
         if stop - start <= 1e-9 * length:
             continue
-        line = _stretch(piece, start, stop)
+        line = substring(piece, start, stop)
         ends = tuple(
             None if fault is None else _end(line, place, fault, faults[fault], shapely.get_coordinates(line)[place])
             for fault, place in ((first, 0), (last, -1))
@@ -93,16 +94,6 @@ def split_piece(piece: LineString, faults: Sequence[LineString], number: int = 1
         outer = (first is None) != (last is None)
         found.append(Part(line, ends, number, outer and stop - start < EXTENSION * length))
     return found
-
-
-def _stretch(line, start, stop):
-    """The stretch of a line between two ways along it: what Shapely's ``substring`` is, without a loop over points."""
-    points = shapely.get_coordinates(line)
-    ways = np.append(0, np.hypot(*np.diff(points, axis=0).T).cumsum())
-    touch = 1e-12 * ways[-1]
-    inner = points[(ways > start + touch) & (ways < stop - touch)]
-    first, last = shapely.get_coordinates(shapely.line_interpolate_point(line, [start, stop]))
-    return LineString(np.vstack([first, inner, last]))
 
 
 def _extended(part, faults):

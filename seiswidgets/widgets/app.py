@@ -124,6 +124,13 @@ class RestorationApp(Turning, VBox):
         """What is done, and with which choices."""
         return Plan(self.steps, self.weights, self.solving.solver, self.solving.spacing)
 
+    @property
+    def files(self) -> FilePanel:
+        """The tab File; made when it is first looked at, as a third of all controls are in it."""
+        if not self._files_page.children:
+            self._files_page.children = [FilePanel(self)]
+        return self._files_page.children[0]
+
     def restore(self) -> None:
         """Restore on the full mesh now, in the background; what is wrong is said below the panes."""
         self._pressed = True
@@ -137,13 +144,15 @@ class RestorationApp(Turning, VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all that is under way is done, as a script may want; False if that took too long."""
-        return all(part.wait(timeout) for part in (self.files, self.keeper, self._restorer, self._moments))
+        parts = (*self._files_page.children, self.keeper, self._restorer, self._moments)
+        return all(part.wait(timeout) for part in parts)
 
     def close(self) -> None:
         """Stop what is under way, save what is not saved yet, and take the app off the screen."""
         self._restorer.cancel()
         self._moments.cancel()
-        self.files.end()
+        for panel in self._files_page.children:
+            panel.end()
         try:
             self.keeper.end()
         finally:
@@ -161,13 +170,14 @@ class RestorationApp(Turning, VBox):
         self.status = StatusBar(self.restore, self.cancel)
         self.reports = Reports()
         self.keeper = SessionBar(self)
-        self.files = FilePanel(self)
 
     def _placed(self):
         """The parts in their places."""
         display = DisplayControls(self.panes)
-        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports, self.files)
+        self._files_page = VBox()
+        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports, self._files_page)
         tabs = Tab(pages, titles=TABS, layout=Layout(min_width="0"))
+        tabs.observe(lambda change: pages[change.new] is self._files_page and self.files, "selected_index")
         below = GridBox(
             [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), tabs],
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),

@@ -61,7 +61,8 @@ class SessionFile(VBox):
         keep = Button(description="Keep work here", icon="save", layout=Layout(width="auto"))
         super().__init__([HBox([self.path, keep]), self.notice])
         keep.on_click(lambda _: self._keep())
-        app.keeper.observe(self._take_path, "path")
+        app.keeper.observe(lambda change: self._take_path(), "path")
+        self._take_path()
 
     def _keep(self):
         self.notice.hint("")
@@ -70,6 +71,6 @@ class SessionFile(VBox):
         except SeiswidgetsError as error:
             self.notice.alert(str(error))
 
-    def _take_path(self, change):
-        if change.new is not None:
-            self.path.value = str(change.new)
+    def _take_path(self):
+        if self._app.keeper.path is not None:
+            self.path.value = str(self._app.keeper.path)
