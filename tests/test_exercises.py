@@ -1,4 +1,4 @@
-"""What a question makes of an answer, and the form that asks it; the answers themselves are in test_notebooks."""
+"""What a question makes of an answer, and the form that asks it; the answers are given in test_notebooks_browser."""
 
 from html import escape
 

@@ -10,7 +10,7 @@ import pytest
 
 from tests.widgets.browser import ROOT, Notebook, Server
 from tests.widgets.byhand import is_painted
-from tests.widgets.test_notebooks_browser import code_of, has_run
+from tests.widgets.test_notebooks_browser import has_run
 
 MOST_MEGABYTES = 1000  # of server and kernels together; Binder gives between 1,000 and 2,000
 OPENED = sorted((ROOT / "notebooks").glob("0[16]_*.ipynb"))
@@ -36,7 +36,8 @@ def test_notebooks_open_in_what_binder_installs_and_its_memory_suffices(binder, 
     opened = []
     try:
         for path in OPENED:
-            opened.append(Notebook(binder, chromium, code_of(path)))
+            opened.append(Notebook(binder, chromium))
+            opened[-1].open(path.name)
             has_run(opened[-1])
             print(f"{path.stem}: {megabytes(binder):.0f} MB with all so far open")
         is_painted(opened[0].page)

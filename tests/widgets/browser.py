@@ -31,7 +31,7 @@ IGNORED = re.compile(
     "|@jupyter-notebook/lab-extension"  # that Voila cannot load
     "|reading 'schema'"  # Notebook 7.6 says so of a notebook without any widget too
 )
-START, RUN = 60, 60  # seconds that the server may take to start, and anything in the page
+START, RUN, COMMAND = 60, 60, 180  # seconds: the server's start, anything in the page, all cells of a notebook
 
 
 class Server:
@@ -51,6 +51,7 @@ class Server:
         }
         path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
         environment = {**os.environ, **home, "PYTHONPATH": path if python == sys.executable else ""}
+        environment.pop("MPLBACKEND", None)  # or no kernel would show a picture
         command = [str(python), "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1"]
         command += [f"--port={self.port}", "--ServerApp.port_retries=0", f"--IdentityProvider.token={self.token}"]
         command += [f"--ServerApp.root_dir={self.folder}", f"--LabApp.user_settings_dir={settings}"]
@@ -85,7 +86,7 @@ class Server:
         return name
 
     def address(self, path, place="lab/tree"):
-        """Of a notebook."""
+        """Of a notebook, or of something else at a place of the server."""
         return f"http://127.0.0.1:{self.port}/{place}/{path}?reset&token={self.token}"
 
 
@@ -109,6 +110,10 @@ class Page:
         self.errors, self.dialogs, self.sent = [], [], []
         size = {"width": width, "height": height}
         self.context = chromium.new_context(viewport=size, device_scale_factor=ratio, has_touch=touch)
+        self.visit(address)
+
+    def visit(self, address):
+        """Go to an address, in a new tab."""
         self.page = self.context.new_page()
         self.page.set_default_timeout(RUN * 1000)
         self.page.on("console", self._note)
@@ -130,30 +135,35 @@ class Page:
 
 
 class Notebook(Page):
-    """A notebook in JupyterLab, its cells run.
+    """A page of JupyterLab, and the notebook in it, of which there may be several, one after the other.
 
     Parameters
     ----------
     lab, chromium
         The fixtures.
-    cells : sequence of str
-        Its code.
-    dark : bool
-        JupyterLab's dark theme.
     **options
         Of the page.
     """
 
-    def __init__(self, lab, chromium, cells, *, dark=False, **options):
-        super().__init__(chromium, lab.address(lab.write(cells)), **options)
-        self._simplify(dark)
+    def __init__(self, lab, chromium, **options):
+        super().__init__(chromium, lab.address(secrets.token_hex(4), "lab/workspaces"), **options)
+        self.page.wait_for_function("window.jupyterapp?.restored.then(() => true)")
+        self.command("application:toggle-left-area")
+
+    def open(self, path, *, dark=False, width=1200, height=900):
+        """Open a notebook of the server's folder, in JupyterLab's light or dark theme, and run its cells."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        self.command("docmanager:open", {"path": path})
+        self.page.wait_for_function(READY, polling=50)
+        self.darken(dark)
         self.run()
 
-    def _simplify(self, dark):
-        self.page.locator(".jp-Notebook").wait_for()
-        self.page.wait_for_function(READY)
-        self.command("application:toggle-left-area")
-        self.darken(dark)
+    def shut(self):
+        """End the notebook's kernel, and leave the page as if it were new."""
+        self.page.evaluate(SHUT)
+        self.page.mouse.move(0, 0)
+        for told in (self.errors, self.dialogs, self.sent):
+            told.clear()
 
     def darken(self, dark):
         """Take JupyterLab's dark theme, or its light one."""
@@ -165,7 +175,7 @@ class Notebook(Page):
     def command(self, name, arguments=None):
         """Execute one of JupyterLab's commands."""
         self.page.evaluate(EXECUTE, [name, arguments or {}])
-        self.page.wait_for_function("window.done")
+        self.page.wait_for_function("window.done", timeout=COMMAND * 1000, polling=50)
 
     def run(self):
         """Run all cells, until the last one is done, and show only what they put out."""
@@ -175,7 +185,7 @@ class Notebook(Page):
     def reload(self):
         """Load the page anew; the kernel goes on."""
         self.page.reload()
-        self.page.wait_for_function(READY)
+        self.page.wait_for_function(READY, polling=50)
 
     def ask(self, code):
         """What an expression is in the kernel, by way of the notebook's own kernel connection."""
@@ -194,6 +204,12 @@ class Notebook(Page):
 READY = """() => {
   const kernel = window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel;
   return kernel?.connectionStatus === "connected" && kernel.status === "idle";
+}"""
+
+SHUT = """async () => {
+  const { currentWidget } = window.jupyterapp.shell;
+  await currentWidget.sessionContext.shutdown();
+  currentWidget.dispose();
 }"""
 
 EXECUTE = """([name, given]) => {

@@ -28,6 +28,7 @@ TICKS = """() => {
 
 def is_painted(page):
     """Wait until both sections of the app are on the screen."""
+    page.locator("canvas.seiswidgets-plot").first.scroll_into_view_if_needed()  # or JupyterLab may not paint them
     page.wait_for_function(PAINTED)
 
 

@@ -64,19 +64,33 @@ def _running(folder):
             server.process.kill()
 
 
-@pytest.fixture
-def notebook(lab, chromium):
-    """A function that opens a notebook with some cells and runs them; at the end the console must hold no error."""
-    opened = []
+@pytest.fixture(scope="session")
+def spare():
+    """A page of JupyterLab for the next test: to load one takes ten times as long as to open a notebook in it."""
+    return []
 
-    def open_notebook(*cells, **options):
-        opened.append(Notebook(lab, chromium, cells, **options))
-        return opened[-1]
+
+@pytest.fixture
+def notebook(lab, chromium, spare, request):
+    """A function that opens a notebook, or cells as one, and runs it; at the end the console must hold no error."""
+    opened, failed = [], request.session.testsfailed
+
+    def open_notebook(*cells, path=None, ratio=1.0, touch=False, **options):
+        plain = ratio == 1 and not touch
+        one = spare.pop() if plain and spare else Notebook(lab, chromium, ratio=ratio, touch=touch)
+        opened.append((one, plain))
+        one.open(path or lab.write(cells), **options)
+        return one
 
     yield open_notebook
-    for one in opened:
-        one.close()
-    assert [error for one in opened for error in one.errors] == []
+    errors = [error for one, _ in opened for error in one.errors]
+    for one, plain in opened:
+        if request.session.testsfailed > failed or errors or one.page.is_closed():
+            one.close()  # as it is now, no other test shall have it
+        else:
+            one.shut()
+            spare.append(one) if plain else one.close()
+    assert errors == []
 
 
 @pytest.fixture

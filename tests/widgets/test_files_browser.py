@@ -115,6 +115,7 @@ def test_a_kernel_killed_in_mid_drag_loses_no_finished_edit(app, name):
     assert app.ask(PICKS) == before
     assert set(app.errors) <= {"Cannot send"}  # which JupyterLab throws at whoever talks to a dead kernel
     app.errors.clear()
+    app.close()
 
 
 def test_a_tab_that_is_closed_and_opened_again_goes_on(app, name):
@@ -123,10 +124,7 @@ def test_a_tab_that_is_closed_and_opened_again_goes_on(app, name):
     app.command("docmanager:save")
     address = app.page.url
     app.page.close()
-    app.page = app.context.new_page()
-    app.page.set_default_timeout(20_000)
-    app.page.on("console", app._note)
-    app.page.goto(address)
+    app.visit(address)
     app.page.wait_for_function(READY)
     ready(app)
     assert app.ask(NAMES) == ["F1"]
@@ -177,6 +175,7 @@ def test_a_connection_that_drops_for_ten_seconds_loses_nothing(app, name):
     until(app, f"list(app.panes.original.view.window) == {window}", False)
     assert all("WebSocket" in error or "ERR_" in error for error in app.errors), app.errors
     app.errors.clear()
+    app.close()  # whatever JupyterLab still has to say of it is not for another test
 
 
 def test_a_segy_line_is_opened_by_path_and_by_upload(notebook, name, lab, tmp_path):
