@@ -17,7 +17,7 @@ from tests.io.segyfiles import segy_bytes, straight
         ("empty.npy", b"", r"empty.npy is empty"),
         ("scan.png", b"no picture", r"scan.png is called .png, but does not begin like one"),
         ("line.npz", b"no archive", r"line.npz is called .npz, but does not begin like one"),
-        ("unknown", b"\x7fELF" * 2000, r"unknown is no SEG-Y file"),
+        ("unknown", b"\x7fELF" * 2000, r"unknown is of no kind that is read here; convert it"),
     ],
 )
 def test_a_file_that_cannot_be(tmp_path, act, name, content, message):

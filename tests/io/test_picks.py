@@ -276,7 +276,7 @@ def feature(kind="fault", geometry="LineString", coordinates="[[0, 0], [1, 1]]",
     ("name", "text", "match"),
     [
         ("a.csv", "", "a.csv is empty; its first row must name the columns kind, name"),
-        ("a.csv", "x,z\n1,2\n", "row 1 must name the columns .* but lacks kind, name, piece"),
+        ("a.csv", "x,z\n1,2\n", "row 1 must name the columns .* missing or doubled: kind, name, piece"),
         ("a.csv", HEADER + "fault,F,1,a,2\n", "row 2: x must be a number .* 'a'"),
         ("a.csv", HEADER + "fault,F,1,1,nan\n", "row 2: z must be a number .* 'nan'"),
         ("a.csv", HEADER + "fault,F,1,1,1e300\n", "row 2: z must be a number"),
@@ -407,13 +407,14 @@ def test_a_long_line_that_crosses_itself_is_refused_at_once(tmp_path):
         ("opendtect-horizons", '"' * 1_000_001),
         ("opendtect-horizons", f"# {'Z (m' * 100_000}\n1 2 3\n"),
         ("charisma-horizons", f"INLINE {':' * 300_000}\n"),
+        ("charisma-faults", f"INLINE{' ' * 300_000}x\n"),
     ],
 )
 def test_endless_rows_are_refused_at_once(tmp_path, kind, text):
     path = written(tmp_path, "a.txt", text)
     begun = time.process_time()
     with pytest.raises(DataError, match=r"a.txt: row \d"):
-        sw.read_picks(path, DEPTH, format=kind, along="x")
+        sw.read_picks(path, DEPTH, format=kind)
     assert time.process_time() - begun < 2
 
 

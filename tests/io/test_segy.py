@@ -236,7 +236,7 @@ def test_a_range_of_traces(save, traces):
     np.testing.assert_allclose(sorted(section.amplitude[0]), [1301, 1303, 1305, 1307])
 
 
-@pytest.mark.parametrize("traces", [range(4), range(-1, 2), slice(1, 2), 2, "all"])
+@pytest.mark.parametrize("traces", [range(4), range(-1, 2), range(10**12), slice(1, 2), slice(0.5)])
 def test_a_range_of_traces_that_are_not_there(save, traces):
     with pytest.raises(sw.SettingError, match="slice or a range of two traces or more, counted from 0, of the 3 in"):
         sw.open_section(save(RAMP, straight(3)), traces=traces, z_unit="m")

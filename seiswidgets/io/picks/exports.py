@@ -62,9 +62,12 @@ def rows(text: str) -> Iterator[tuple[str, str]]:
 
 
 def fault_lines(path: Path, nodes: Iterable[Node], choices: Choices) -> tuple[Line, ...]:
-    """A fault a stick, called as it is, with its stick's number where its fault has several on the line."""
+    """A fault a stick, called as it is, with its stick's number where its fault has several on the line.
+
+    Points without a depth are left out.
+    """
     seismic, nodes = _on_one_line(path, nodes, choices.line)
-    sticks = _grouped(nodes, lambda node: (node.name, node.part))
+    sticks = _grouped((node for node in nodes if not np.isnan(node.z)), lambda node: (node.name, node.part))
     several = Counter(name for name, _ in sticks)
     return tuple(
         _line(path, FAULT, f"{name} {part}" if several[name] > 1 else name, stick, seismic, choices)
@@ -157,7 +160,7 @@ def _answer(along, x, y, trace):
 def _distances(path, nodes, places, along):
     """Distances from the first point of the line on the map, along it."""
     try:
-        line = shapely.LineString(np.array(along, float))
+        line = shapely.LineString(np.array(along, float).reshape(len(along), 2))
     except (TypeError, ValueError, shapely.errors.GEOSException):
         line = shapely.LineString()
     if not (line.length > 0 and np.isfinite(line.length)):

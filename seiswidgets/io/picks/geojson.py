@@ -20,6 +20,10 @@ def read(path: Path) -> Found:
     are (x, z) on the section, not longitude and latitude.
     """
     document = read_json(path)
+    if MARK not in document.members():
+        raise DataError(
+            f"{path} is not GeoJSON of picks: it lacks {MARK!r}, which states their units; save them by write_picks"
+        )
     mark = document[MARK]
     if (version := mark["version"].number()) > VERSION:
         raise DataError(f"{path} is in version {version:g} of our GeoJSON, this is for {VERSION}; update seiswidgets")

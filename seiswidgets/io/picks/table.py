@@ -28,7 +28,10 @@ def read(path: Path) -> Found:
     lines: dict[tuple[str, str, str], tuple[str, list]] = {}
     for place, row in rows:
         if len(row) != len(header):
-            raise DataError(f"{path}: {place} must have {len(header)} values as the first, but has {len(row)}")
+            raise DataError(
+                f"{path}: {place} must have {len(header)} values as the first, but has {len(row)}; correct or delete "
+                "that row"
+            )
         kind, name, piece = (row[columns[column]] for column in COLUMNS[:3])
         if kind not in (FAULT, HORIZON):
             raise DataError(f"{path}: {place}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
@@ -51,12 +54,13 @@ def _rows(path):
 def _columns(path, header):
     """Where the columns are, and the units of x and z."""
     named = [re.fullmatch(r"(\w+) ?(?:\((\w+)\))?", title.strip()) for title in header]
-    places = {match[1].lower(): place for place, match in enumerate(named) if match}
-    lacking = [column for column in COLUMNS if column not in places]
+    titles = [match[1].lower() if match else "" for match in named]
+    places = {title: place for place, title in enumerate(titles)}
+    lacking = [column for column in COLUMNS if titles.count(column) != 1]
     if lacking:
         raise DataError(
-            f"{path}: row 1 must name the columns {', '.join(COLUMNS)}, separated by commas, but lacks "
-            f"{', '.join(lacking)}"
+            f"{path}: row 1 must name the columns {', '.join(COLUMNS)}, each once and separated by commas; missing or "
+            f"doubled: {', '.join(lacking)}"
         )
     return places, {axis: named[places[axis]][2] for axis in ("x", "z")}
 
