@@ -1,5 +1,6 @@
 """Matrices in: NumPy's .npy and .npz, and text. Nothing in them is unpickled or evaluated."""
 
+import lzma
 import tokenize
 import warnings
 import zipfile
@@ -14,6 +15,7 @@ from numpy.lib import format as npy
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.section import METRES, Section
 from seiswidgets.io.choices import OF_AXES, OF_SEGY, Choices, Progress, checked_shape, checked_size, section_of
+from seiswidgets.io.document import shortened
 from seiswidgets.io.info import SectionInfo
 
 STORED = ("dx", "dz", "x0", "z0", "x_unit", "z_unit", "velocity", "name", "credit")  # beside the amplitude, in .npz
@@ -28,6 +30,7 @@ DAMAGED = (  # what NumPy and Python's own readers raise
     TypeError,
     ValueError,
     tokenize.TokenError,
+    lzma.LZMAError,
     zipfile.BadZipFile,
     zlib.error,
 )
@@ -115,7 +118,7 @@ def _honest(path, remedy):
     except SeiswidgetsError:
         raise
     except DAMAGED as error:
-        raise DataError(f"{path} is damaged, or no matrix of numbers: {error}; {remedy}") from error
+        raise DataError(f"{path} is damaged, or no matrix of numbers: {shortened(str(error))}; {remedy}") from error
 
 
 def _of_npz(path, file):
@@ -144,7 +147,11 @@ def _the_matrix(path, arrays):
     array = arrays.get("amplitude", matrices[0] if len(matrices) == 1 else None)
     if array is None or array.dtype.kind not in "fiub":
         held = ", ".join(f"{name or 'one'} of shape {array.shape}" for name, array in arrays.items())
-        raise DataError(f"{path} must hold one matrix of real numbers, or one called 'amplitude', but holds {held or 'none'}")
+        raise DataError(
+            f"{path} must hold one matrix of real numbers, or one called 'amplitude', but holds "
+            f"{shortened(held) or 'none'}: write it so"
+        )
+    checked_shape(path, array.shape)
     return array
 
 

@@ -233,6 +233,44 @@ def test_charisma_horizon_lies_along_an_inline_or_a_crossline(tmp_path):
         sw.read_picks(path, DEPTH, line="inline 363", along=route, **choices)
 
 
+@pytest.mark.parametrize(
+    "marks", ["INLINE :{} XLINE :{}", "INLINE-{} XLINE-{}", "INLINE - {} XLINE - {}", "INLINE {} XLINE {}"]
+)
+def test_charisma_marks_stand_apart_or_joined(tmp_path, marks):
+    rows = "".join(f"{marks.format(362, 300 + n)} {25 * n} 0 {500 + n}\n" for n in range(3))
+    choices = {"x_unit": "m", "z_unit": "m", "along": "x", "line": "inline 362"}
+    horizons = sw.read_picks(written(tmp_path, "Base.txt", rows), DEPTH, format="charisma-horizons", **choices)
+    rows = rows.replace("\n", " 1\n")  # the number of the stick
+    faults = sw.read_picks(written(tmp_path, "F.txt", rows), DEPTH, format="charisma-faults", **choices)
+    points = [[0, 500], [25, 501], [50, 502]]
+    assert lines_of(horizons) == ([], [("Base", [points])])
+    assert lines_of(faults) == ([("F", [points])], [])
+
+
+def test_charisma_rows_may_end_with_the_horizons_name(tmp_path):
+    path = written(tmp_path, "all.txt", CHARISMA_HORIZON.replace("0\n", "0 Base Chalk\n"))
+    choices = {"format": "charisma-horizons", "x_unit": "m", "z_unit": "m", "along": "x", "line": "inline 362"}
+    assert [horizon.name for horizon in sw.read_picks(path, DEPTH, **choices).horizons] == ["Base Chalk"]
+    written(tmp_path, "all.txt", CHARISMA_HORIZON.replace("0\n", "0 0.77\n"))
+    with pytest.raises(DataError, match="row 1 must be INLINE : number XLINE : number X Y Z, and a name or none"):
+        sw.read_picks(path, DEPTH, **choices)
+
+
+@pytest.mark.parametrize("undefined", ["9999999", "9999900.0", "1e30", "-1e30", "3.4028235e+38", "-"])
+def test_a_fault_leaves_out_points_without_depth(tmp_path, undefined):
+    path = written(tmp_path, "f.txt", CHARISMA_FAULT + f"INLINE- 370 320 1060.0 2080.0 {undefined} Main fault 2\n")
+    choices = {"format": "charisma-faults", "x_unit": "m", "z_unit": "m", "along": "x"}
+    (fault,) = sw.read_picks(path, DEPTH, line="inline 370", **choices).faults
+    np.testing.assert_array_equal(fault.points, [(1000, 500), (1030, 700)])
+
+
+def test_choices_of_exports_have_no_meaning_for_ours(tmp_path):
+    sw.write_picks(SIMPLE, tmp_path / "a.csv", TIME)
+    for choice in ({"along": "x"}, {"line": "L 1"}):
+        with pytest.raises(sw.SettingError, match="along= and line= have no meaning for csv"):
+            sw.read_picks(tmp_path / "a.csv", TIME, **choice)
+
+
 def test_charisma_faults_may_have_blanks_in_their_names(tmp_path):
     path = written(tmp_path, "f.txt", CHARISMA_FAULT)
     choices = {"format": "charisma-faults", "x_unit": "m", "z_unit": "m", "along": "x"}

@@ -92,6 +92,15 @@ def test_a_revision_2_file_counts_its_samples_elsewhere(save, tmp_path):
     np.testing.assert_array_equal(sw.open_section(tmp_path / "line.sgy", z_unit="m").amplitude, RAMP.T)
 
 
+def test_a_revision_2_file_may_say_its_interval_more_finely(save):
+    headers = [header | {117: 2500} for header in straight(3)]  # whole microseconds
+    path = save(RAMP, headers, interval=2500, binary={3501: 0x200})
+    content = bytearray(path.read_bytes())
+    content[3272:3280] = np.array(2500.5, ">f8").tobytes()
+    path.write_bytes(content)
+    assert sw.open_section(path, z_unit="m").dz == 2.5005
+
+
 def test_extended_textual_headers_are_passed_over(save, tmp_path):
     content = save(RAMP, straight(3), binary={3505: 2}).read_bytes()
     (tmp_path / "line.sgy").write_bytes(content[:3600] + bytes(6400) + content[3600:])
@@ -155,6 +164,12 @@ def test_uneven_spacing_says_where(save):
         sw.open_section(save(np.ones((4, 4)), headers), z_unit="m")
 
 
+def test_traces_at_the_same_place_are_told_of(save):
+    headers = [header for header in straight(3) for _ in range(2)]
+    with pytest.raises(sw.DataError, match=r"traces 1 and 2 \(counted from 0\) 25; some stand at the same place"):
+        sw.open_section(save(np.ones((6, 4)), headers), z_unit="m")
+
+
 def test_angles_are_no_distances(save):
     headers = [header | {89: 2} for header in straight(3)]
     with pytest.raises(sw.DataError, match=r"seconds of arc .* dx="):
@@ -205,6 +220,30 @@ def test_a_volume_that_is_not_full_is_searched(save):
     np.testing.assert_allclose(sw.open_section(path, crossline=201, z_unit="m").amplitude[0], [1301, 1401])
 
 
+def test_a_volume_that_is_not_full_is_no_line(save):
+    headers = volume_headers(INLINES, CROSSLINES)
+    del headers[5]
+    path = save(numbered(headers), headers)
+    with pytest.raises(sw.SettingError, match=r"3 inlines \(10 to 12\) and 4 crosslines \(201 to 207\); choose"):
+        sw.open_section(path, z_unit="m", dx=25)
+    info = sw.preview(path)
+    assert (info.inlines, info.crosslines, info.dx) == ((10, 12, 3), (201, 207, 4), 50)
+    assert info.needed == ("inline, crossline or traces", "z_unit or velocity")
+    assert sw.open_section(path, z_unit="m", dx=25, traces=slice(None)).shape == (4, 11)
+
+
+def test_a_line_across_a_grid_is_no_volume(save):
+    headers = [{189: 10 + n // 2, 193: 200 + n, 181: 30 * n, 185: 40 * n} for n in range(6)]
+    assert sw.open_section(save(np.ones((6, 4)), headers), z_unit="m").dx == 50
+
+
+def test_a_line_of_an_unsorted_volume_comes_in_order(save):
+    headers = volume_headers(INLINES, CROSSLINES)
+    headers = [headers[place] for place in np.random.default_rng(1).permutation(12)]
+    path = save(numbered(headers), headers)
+    np.testing.assert_allclose(sw.open_section(path, inline=11, z_unit="m").amplitude[0], [1301, 1303, 1305, 1307])
+
+
 def test_a_volume_whose_lines_differ_in_length_by_turns_is_searched(save):
     rows = [(1, 3), (2, 4), (3, 2)]
     headers = [{189: i, 193: c, 181: 25 * c, 185: 50 * i} for i, length in rows for c in range(1, length + 1)]
@@ -242,6 +281,15 @@ def test_a_range_of_traces_that_are_not_there(save, traces):
         sw.open_section(save(RAMP, straight(3)), traces=traces, z_unit="m")
 
 
+@pytest.mark.parametrize(
+    "chosen", [{"inline": 11.0}, {"crossline": "201"}, {"inline": True}, {"traces": [0, 1]}, {"header_bytes": [73]}]
+)
+def test_choices_of_another_kind(save, chosen):
+    (name,) = chosen
+    with pytest.raises(sw.SettingError, match=f"{name} must be a .*, but is"):
+        sw.open_section(save(RAMP, straight(3)), z_unit="m", **chosen)
+
+
 @pytest.mark.parametrize(("chosen", "message"), [({"x": 182}, "byte 182 .* no number starts"), ({"cdp": 21}, "'cdp'")])
 def test_header_bytes_that_are_none(save, chosen, message):
     with pytest.raises(sw.SettingError, match=message):
@@ -254,6 +302,7 @@ def test_header_bytes_that_are_none(save, chosen, message):
         (lambda content: content[:3000], "ends after 3000 bytes, within the 3600"),
         (lambda content: content[:-1], r"traces of 4 samples take 256 bytes each.* 2 fit, and 255 bytes are left"),
         (lambda content: content[:3600], "0 fit"),
+        (lambda content: content[: 3600 + 256], "at least 2 samples by 2 traces"),
         (lambda content: content[:3220] + b"\0\0" + content[3222:], r"no samples \(bytes 3221-3222\)"),
         (lambda content: content[:3224] + b"\0\4" + content[3226:], "bytes 3225-3226 must be .* but are 0 and 4"),
         (lambda content: content[:3504] + b"\xff\xff" + content[3506:], "unknown number of further textual headers"),

@@ -29,8 +29,8 @@ def _horizon_node(path, place, row):
     name = values[5:]
     if len(MARK.findall(row)) != 2 or len(values) < 5 or (name and _is_number(name[0])):
         raise DataError(
-            f"{path}: {place} must be INLINE : number XLINE : number X Y Z, and a name or none; export it again in this "
-            "format"
+            f"{path}: {place} must be INLINE : number XLINE : number X Y Z, and a name or none; export it again in "
+            "this format"
         )
     return _node(path, place, values, " ".join(name), "")
 
@@ -49,8 +49,8 @@ def _fault_node(path, place, row):
     values = MARK.sub(" ", row).split()
     if len(values) < 6 or not row.lstrip().startswith("INLINE") or not values[-1].isdecimal():
         raise DataError(
-            f"{path}: {place} must be INLINE- inline crossline X Y Z, the fault's name or none, and the stick's number; "
-            "export it again in this format"
+            f"{path}: {place} must be INLINE- inline crossline X Y Z, the fault's name or none, and the stick's "
+            "number; export it again in this format"
         )
     return _node(path, place, values, " ".join(values[5:-1]), values[-1])
 

@@ -73,7 +73,9 @@ def read_picks(
     chosen = _format(path, format, (*OURS, *EXPORTS))
     if chosen in OURS:
         if along is not None or line is not None:
-            raise SettingError(f"along= and line= have no meaning for {chosen}, which is of one section; leave them out")
+            raise SettingError(
+                f"along= and line= have no meaning for {chosen}, which is of one section; leave them out"
+            )
         found = OURS[chosen].read(path)
         lines = found.lines
     else:

@@ -19,8 +19,8 @@ def read_horizons(path: Path, choices: Choices) -> Found:
     """2-D horizons (Export > Horizons > ASCII 2D): ["horizon"] ["line"] X Y trace shot-point Z, between blanks.
 
     Names stand in double quotes. With both it is horizon, then line; with one it is the line, unless the header names
-    the horizon's column alone. A horizon without a name is called as the file. Z is undefined from 9,999,900 on, or if it is
-    "-"; there, and where trace numbers jump, a piece ends. The header, if there is one, states the unit of z.
+    the horizon's column alone. A horizon without a name is called as the file. Z is undefined from 9,999,900 on, or
+    if it is "-"; there, and where trace numbers jump, a piece ends. The header, if there is one, states the unit of z.
     """
     text = read_text(path)
     header = " ".join(row for row in text[:HEADER].splitlines() if row.lstrip().startswith("#"))
