@@ -100,6 +100,8 @@ def volume(headers: TraceHeaders) -> Volume | None:
     if length == count or count % length:
         return None
     numbers = {slow: headers(slow, slice(0, None, length)), fast: headers(fast, slice(0, length))}
+    if not np.array_equal(headers(fast, slice(length, 2 * length)), numbers[fast]):
+        return None
     steps = [np.diff(line) for line in numbers.values()]
     if not all((step > 0).all() or (step < 0).all() for step in steps):
         return None

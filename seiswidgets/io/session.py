@@ -111,7 +111,7 @@ class Session:
         """
         path = user_path(path)
         try:
-            content = sessionfile.text(self, path.parent).encode()
+            content = sessionfile.text(self, path).encode()
         except (TypeError, ValueError) as error:
             raise DataError(f"{path} cannot hold this session: {error}; correct its numbers") from error
         check_size(path, content, LARGEST_JSON)

@@ -68,7 +68,7 @@ def write_whole(path: Path, content: bytes) -> None:
 
 def _settle(path):
     """Wait until a file or folder is on the disk."""
-    handle = os.open(path, os.O_RDONLY)
+    handle = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)  # Windows settles no file that is only read
     try:
         os.fsync(handle)
     finally:

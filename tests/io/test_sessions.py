@@ -164,6 +164,17 @@ def test_a_section_from_a_file_is_found_where_the_folder_goes(case, tmp_path):
     assert again.source.name == str(moved / "data" / "line.npz")
 
 
+def test_a_link_to_a_session_is_the_session(case, tmp_path):
+    folder = tmp_path / "real"
+    folder.mkdir()
+    (tmp_path / "link.json").symlink_to(folder / "session.json")
+    sw.save_section(case.section, folder / "line.npz")
+    session = sw.Session.of(case.section, sw.SectionSource("file", str(folder / "line.npz")), case.interpretation)
+    session.save(tmp_path / "link.json")
+    assert json.loads((folder / "session.json").read_text())["section"]["source"]["path"] == "line.npz"
+    assert sw.open_session(tmp_path / "link.json") == sw.open_session(folder / "session.json") == session
+
+
 def test_a_section_that_differs_is_told_of(case, tmp_path):
     source = with_file(tmp_path, case.section)
     session = sw.Session.of(case.section, source, case.interpretation, case.fixed, PLAN)

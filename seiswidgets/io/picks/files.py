@@ -5,7 +5,7 @@ import os
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
-from seiswidgets.io.document import check_size
+from seiswidgets.io.document import check_size, shortened
 from seiswidgets.io.paths import user_path
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
 from seiswidgets.io.picks.exports import Along, Choices
@@ -141,7 +141,8 @@ def _unit(path, axis, stated, given):
     """The file's unit, stated or given; both must not differ."""
     if stated is not None and given is not None and stated != given:
         raise DataError(
-            f"{path} states {axis} {stated!r}, but {axis}={given!r} is given; leave that out, or correct the file"
+            f"{path} states {axis} {shortened(repr(stated))}, but {axis}={given!r} is given; leave that out, or "
+            "correct the file"
         )
     return given if stated is None else stated
 

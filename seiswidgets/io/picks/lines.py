@@ -79,7 +79,7 @@ def _factor(path, axis, unit, wanted, section):
     if unit is None:
         raise DataError(f"{path} does not say its {axis}; give {axis}=, one of {', '.join(known)}")
     if unit not in tuple(known):
-        raise DataError(f"{path}: {axis} must be one of {', '.join(known)}, but is {unit!r}")
+        raise DataError(f"{path}: {axis} must be one of {', '.join(known)}, but is {shortened(repr(unit))}")
     if unit == wanted:
         return 1
     family = METRES if unit in METRES else SECONDS
