@@ -144,6 +144,6 @@ def _traces(path, samples, itemsize, extra_texts):
 def decoded(text: bytes) -> str:
     """SEG-Y's textual header in lines of 80 characters, from EBCDIC or ASCII; what cannot be shown as a dot."""
     ebcdic = text.count(0x40) > text.count(0x20)  # the blank of either
-    letters = text.decode("cp037" if ebcdic else "latin-1")
+    letters = text.decode("cp500").replace("¦", "|") if ebcdic else text.decode("latin-1")  # as segyio has it
     shown = "".join(letter if letter.isprintable() else "." if ord(letter) else " " for letter in letters)
     return "\n".join(shown[start : start + 80].rstrip() for start in range(0, len(shown), 80))

@@ -350,6 +350,13 @@ def test_textual_headers_in_either_code(encoding):
     assert lines == ["C01 LINE 7", "C02"]
 
 
+@pytest.mark.parametrize("first", [33, 65, 97])
+def test_every_sign_of_a_textual_header_comes_back(tmp_path, first):
+    signs = "".join(map(chr, range(first, min(first + 32, 127))))
+    sw.save_section(sw.Section(np.ones((2, 2)), 1, 1, name=signs), tmp_path / "line.sgy")
+    assert sw.preview(tmp_path / "line.sgy").header.splitlines()[1].endswith(f"SECTION: {signs}")
+
+
 def test_control_characters_of_a_textual_header_are_not_passed_on():
     assert decoded(b"C01 \x1b[2J\0\r\n".ljust(80)) == "C01 .[2J .."
 
