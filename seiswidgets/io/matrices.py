@@ -77,7 +77,7 @@ def preview_array(path: Path) -> SectionInfo:
         else:
             file.seek(0)
             shape, _, dtype = _header(path, file, path.stat().st_size)
-    checked_shape(path, shape)
+            checked_shape(path, shape)
     needed = () if {"dx", "dz"} <= stored.keys() else (AXES,)
     needed += () if "velocity" in stored or stored.get("z_unit") in tuple(METRES) else (HEIGHT,)
     return SectionInfo(path, "array", str(dtype), path.stat().st_size, shape, needed)

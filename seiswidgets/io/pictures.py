@@ -119,17 +119,20 @@ def _grey(image):
     """Amplitudes of a picture, upright, float32, shape (height, width)."""
     negative = image.mode in DEEP and image.format == "TIFF" and image.tag_v2.get(PHOTOMETRIC) == WHITE_IS_ZERO
     image = ImageOps.exif_transpose(image)
-    opaque = _opaque(image)
+    clear = _clear(image)
     if image.mode not in (*MIDDLE, *AS_THEY_ARE):
         image = image.convert("L")
-    amplitude = np.array(image, np.float32) - np.float32(MIDDLE.get(image.mode, 0.0))
-    return np.where(opaque, -amplitude if negative else amplitude, np.float32(np.nan))
+    amplitude = np.array(image, np.float32)
+    amplitude -= MIDDLE.get(image.mode, 0.0)
+    amplitude *= -1 if negative else 1
+    amplitude[clear] = np.nan
+    return amplitude
 
 
-def _opaque(image):
-    """Whether there is anything at each pixel; shape (height, width), or a single True."""
+def _clear(image):
+    """Where a picture shows nothing; shape (height, width), or False for nowhere."""
     if not image.has_transparency_data:
-        return True
+        return False
     if image.mode in DEEP:  # Pillow's own conversion would cut them to 8 bits
-        return np.asarray(image) != image.info["transparency"]
-    return np.asarray(image.convert("RGBA").getchannel("A")) > 0
+        return np.asarray(image) == image.info["transparency"]
+    return np.asarray(image.convert("RGBA").getchannel("A")) == 0

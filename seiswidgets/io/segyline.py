@@ -197,9 +197,10 @@ def _numbered(headers, grid, name, number, progress):
             f"{headers.layout.path} has {len(found)} traces of {name} {number!r} (byte {headers.bytes[name]} of the "
             f"trace header); {_numbers_there(headers, name)}. If they stand at other bytes, give header_bytes="
         )
-    across = np.diff(headers(OTHER[name], found))
-    in_order = (across >= 0).all() or (across <= 0).all()
-    return found if in_order else found[np.argsort(headers(OTHER[name], found), kind="stable")]
+    along = headers(OTHER[name], found)
+    steps = np.diff(along)
+    in_order = (steps >= 0).all() or (steps <= 0).all()
+    return found if in_order else found[np.argsort(along, kind="stable")]
 
 
 def _searched(headers, name, number, progress):
