@@ -3,7 +3,7 @@
 import json
 import re
 import reprlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -130,11 +130,11 @@ class Entry:
             raise self.error("an object {...}")
         return self.value
 
-    def items(self) -> list["Entry"]:
-        """The value as a list."""
+    def items(self) -> Iterator["Entry"]:
+        """The values of a list, one after the other: millions at once would take much memory."""
         if not isinstance(self.value, list):
             raise self.error("a list [...]")
-        return [Entry(value, self.path, f"{self.place}[{number}]") for number, value in enumerate(self.value)]
+        return (Entry(value, self.path, f"{self.place}[{number}]") for number, value in enumerate(self.value))
 
     def text(self) -> str:
         """The value as text, of whole characters."""

@@ -19,7 +19,7 @@ from seiswidgets.io.document import shortened
 from seiswidgets.io.info import SectionInfo
 
 STORED = ("dx", "dz", "x0", "z0", "x_unit", "z_unit", "velocity", "name", "credit")  # beside the amplitude, in .npz
-MOST_TEXT = 2**28  # bytes of a text file
+MOST_TEXT, MOST_ROW = 2**28, 2**24  # bytes of a text file, and characters of its first row
 DAMAGED = (  # what NumPy and Python's own readers raise
     ArithmeticError,
     EOFError,
@@ -190,5 +190,7 @@ def _numbers(path, rows=None):
     with _honest(path, PLAIN):
         with path.open(encoding="utf-8-sig") as file:
             first = next((line for line in file if line.partition("#")[0].strip()), "")
+        if len(first) > MOST_ROW:
+            raise DataError(f"{path} has a first row of {len(first):,} characters; write a row for each sample")
         delimiter = next(mark for mark in DELIMITERS if mark is None or mark in first.partition("#")[0])
         return np.loadtxt(path, delimiter=delimiter, ndmin=2, max_rows=rows, encoding="utf-8-sig")

@@ -15,7 +15,7 @@ from seiswidgets.io.segylayout import Layout
 
 BYTES = {"inline": 189, "crossline": 193, "x": 181, "y": 185, "scalar": 71}  # as revision 1 of the standard has them
 OTHER = {"inline": "crossline", "crossline": "inline"}
-OTHERS = ((73, 77), (81, 85))  # source and receiver: where old lines have their positions
+PLACES = ((181, 185), (73, 77), (81, 85))  # of the midpoint; source and receiver, where old lines have their positions
 WINDOW = 65_536  # headers read at a time
 COUNTED = 1_000_000  # headers that are looked at to tell which lines a volume holds that is no full grid
 EVEN = 0.05  # of the spacing: what a step may differ from it, beside the rounding of the positions
@@ -268,7 +268,7 @@ def _refuse_angles(headers, traces):
 def _missing(headers, traces):
     x, y = headers.bytes["x"], headers.bytes["y"]
     said = f"{headers.layout.path} has no positions of its traces: bytes {x} and {y} of all headers hold the same"
-    for other_x, other_y in OTHERS:
+    for other_x, other_y in PLACES:
         if any(np.ptp(headers(byte, traces)) for byte in (other_x, other_y)):
             others = f'header_bytes={{"x": {other_x}, "y": {other_y}}}'
             return f"{said}. Others stand at bytes {other_x} and {other_y}: give {others}, or the distance dx="

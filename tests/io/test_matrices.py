@@ -160,6 +160,12 @@ def test_text_that_is_no_matrix(tmp_path, content, encoding):
         sw.open_section(text(tmp_path / "line.txt", content, encoding), **AXES)
 
 
+def test_a_text_in_one_row_is_refused_before_it_is_read(tmp_path, monkeypatch):
+    monkeypatch.setattr("seiswidgets.io.matrices.MOST_ROW", 10)
+    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write a row for each sample"):
+        sw.open_section(text(tmp_path / "line.txt", "1 2 3 4 5 6\n1 2 3 4 5 6\n"), **AXES)
+
+
 def test_what_is_infinite_or_nothing_at_all_is_refused(tmp_path):
     with pytest.raises(sw.DataError, match=r"line.txt has an infinite amplitude, at sample 1 of trace 0"):
         sw.open_section(text(tmp_path / "line.txt", "1 2\n1e999 4\n"), **AXES)

@@ -411,11 +411,18 @@ def test_files_that_are_not_there_or_too_large_are_not_read(tmp_path):
         sw.read_picks(tmp_path / "none.csv", DEPTH)
     with pytest.raises(DataError, match="there is no file"):
         sw.read_picks(tmp_path, DEPTH, format="csv")
-    for name, size in (("a.json", 9 * 2**20), ("a.csv", 65 * 2**20)):
+    for name, size in (("a.json", 9 * 2**20), ("a.csv", 17 * 2**20)):
         path = written(tmp_path, name, "")
         os.truncate(path, size)  # sparse
         with pytest.raises(DataError, match=r"holds \d+ MiB, and picks of one section fit in"):
             sw.read_picks(path, DEPTH)
+
+
+def test_more_points_than_a_line_can_have_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("seiswidgets.io.picks.exports.MOST", 2)
+    path = written(tmp_path, "a.cps3", CPS3)
+    with pytest.raises(DataError, match=r"a.cps3: up to row 7 there are more than 2 points on one line; export fewer"):
+        sw.read_picks(path, DEPTH, format="cps3-faults", along="x")
 
 
 def test_what_could_not_be_read_again_is_not_written(tmp_path):

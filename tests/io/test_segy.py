@@ -155,6 +155,8 @@ def test_positions_at_other_bytes_are_pointed_out(save):
     with pytest.raises(sw.DataError, match=r'no positions .* give header_bytes=.*"x": 73, "y": 77'):
         sw.open_section(path, z_unit="m")
     assert sw.open_section(path, z_unit="m", header_bytes={"x": 73, "y": 77}).dx == 25
+    with pytest.raises(sw.DataError, match=r'bytes 81 and 85 .* give header_bytes=.*"x": 73, "y": 77'):
+        sw.open_section(path, z_unit="m", header_bytes={"x": 81, "y": 85})
 
 
 def test_uneven_spacing_says_where(save):

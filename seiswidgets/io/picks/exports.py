@@ -14,13 +14,13 @@ from seiswidgets.io.document import shortened
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Line
 
 BESIDE = 0.01  # of the line's length: how far from it a pick may lie
-
+MOST = 300_000  # points on one line: many horizons of many traces
 SHOWN = 6  # seismic lines, where a message names those that there are
 
 Along = str | Callable | np.ndarray | list
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Node:
     """A point of an export.
 
@@ -95,6 +95,8 @@ def _on_one_line(path, nodes, line):
             raise DataError(f"{path} holds picks on several seismic lines: {_listed(known)}; choose one by line=")
         if line is None or line in node.lines:
             kept.append(node)
+        if len(kept) > MOST:
+            raise DataError(f"{path}: up to {node.place} there are more than {MOST:,} points on one line; export fewer")
     if possible is None:
         raise DataError(f"{path} holds no picks; export it again")
     if not kept:

@@ -40,7 +40,7 @@ def _lines(feature: Entry):
         raise geometry["type"].error(f"{GEOMETRY[kind]!r} for a {kind}")
     drawn = geometry["coordinates"]
     name = properties["name"].text()
-    pieces = [drawn] if kind == FAULT else drawn.items()
+    pieces = [drawn] if kind == FAULT else list(drawn.items())
     if not pieces:
         raise drawn.error("a list of pieces")
     return [Line(kind, name, piece.points(), piece.place) for piece in pieces]

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import LARGEST_TEXT, read_text
+from seiswidgets.io.document import read_text
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
 from seiswidgets.io.picks.numbers import number
 
-LARGEST = LARGEST_TEXT
+LARGEST = 16 * 2**20  # bytes; about as many points as the largest JSON holds
 COLUMNS = ("kind", "name", "piece", "x", "z")
 
 
@@ -42,7 +42,7 @@ def read(path: Path) -> Found:
 
 
 def _rows(path):
-    reader = csv.reader(io.StringIO(read_text(path), newline=""), strict=True)
+    reader = csv.reader(io.StringIO(read_text(path, LARGEST), newline=""), strict=True)
     try:
         for row in reader:
             if row:
