@@ -11,7 +11,7 @@ from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io import sessionfile
-from seiswidgets.io.document import LARGEST_JSON, check_size
+from seiswidgets.io.document import LARGEST_OURS, check_size
 from seiswidgets.io.paths import user_path
 from seiswidgets.io.savedpicks import SavedPick, saved
 from seiswidgets.io.sources import SectionSource, section_sha256
@@ -114,7 +114,7 @@ class Session:
             content = sessionfile.text(self, path).encode()
         except (TypeError, ValueError) as error:
             raise DataError(f"{path} cannot hold this session: {error}; correct its numbers") from error
-        check_size(path, content, LARGEST_JSON)
+        check_size(path, content, LARGEST_OURS)
         write_whole(path, content)
 
     @property

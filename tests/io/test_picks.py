@@ -411,17 +411,22 @@ def test_files_that_are_not_there_or_too_large_are_not_read(tmp_path):
         sw.read_picks(tmp_path / "none.csv", DEPTH)
     with pytest.raises(DataError, match="there is no file"):
         sw.read_picks(tmp_path, DEPTH, format="csv")
-    for name, size in (("a.json", 9 * 2**20), ("a.csv", 17 * 2**20)):
+    for name, size in (("a.json", 9 * 2**20), ("a.csv", 9 * 2**20)):
         path = written(tmp_path, name, "")
         os.truncate(path, size)  # sparse
         with pytest.raises(DataError, match=r"holds \d+ MiB, and picks of one section fit in"):
             sw.read_picks(path, DEPTH)
 
 
-def test_more_points_than_a_line_can_have_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr("seiswidgets.io.picks.exports.MOST", 2)
-    path = written(tmp_path, "a.cps3", CPS3)
-    with pytest.raises(DataError, match=r"a.cps3: up to row 7 there are more than 2 points on one line; export fewer"):
+def test_more_points_than_there_may_be_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("seiswidgets.io.picks.exports.MOST_POINTS", 2)
+    with pytest.raises(DataError, match=r"a.cps3: row 7 is one more than the 2 points that there may be on a line"):
+        sw.read_picks(written(tmp_path, "a.cps3", CPS3), DEPTH, format="cps3-faults", along="x")
+
+
+def test_rows_are_counted_as_editors_count_them(tmp_path):
+    path = written(tmp_path, "a.cps3", "# a\x0bb\x85c\u2028d\r\n\r1 2 3\n1 2 none\n")
+    with pytest.raises(DataError, match=r"a.cps3: row 4: Z must be a number"):
         sw.read_picks(path, DEPTH, format="cps3-faults", along="x")
 
 

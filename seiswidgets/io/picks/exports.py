@@ -10,11 +10,10 @@ import numpy as np
 import shapely
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.document import shortened
+from seiswidgets.io.document import MOST_POINTS, lines, shortened
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Line
 
 BESIDE = 0.01  # of the line's length: how far from it a pick may lie
-MOST = 300_000  # points on one line: many horizons of many traces
 SHOWN = 6  # seismic lines, where a message names those that there are
 
 Along = str | Callable | np.ndarray | list
@@ -56,7 +55,7 @@ class Choices:
 
 def rows(text: str) -> Iterator[tuple[str, str]]:
     """Place and content of the rows that are neither blank nor a comment."""
-    for count, row in enumerate(text.splitlines(), 1):
+    for count, row in enumerate(lines(text), 1):
         if row.strip() and not row.lstrip().startswith(("#", "!")):
             yield f"row {count}", row
 
@@ -95,8 +94,11 @@ def _on_one_line(path, nodes, line):
             raise DataError(f"{path} holds picks on several seismic lines: {_listed(known)}; choose one by line=")
         if line is None or line in node.lines:
             kept.append(node)
-        if len(kept) > MOST:
-            raise DataError(f"{path}: up to {node.place} there are more than {MOST:,} points on one line; export fewer")
+        if len(kept) > MOST_POINTS:
+            raise DataError(
+                f"{path}: {node.place} is one more than the {MOST_POINTS:,} points that there may be on a line; export "
+                "fewer"
+            )
     if possible is None:
         raise DataError(f"{path} holds no picks; export it again")
     if not kept:

@@ -5,7 +5,7 @@ import os
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
-from seiswidgets.io.document import check_size, shortened
+from seiswidgets.io.document import LARGEST_OURS, check_size, shortened
 from seiswidgets.io.paths import user_path
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
 from seiswidgets.io.picks.exports import Along, Choices
@@ -124,7 +124,7 @@ def write_picks(
         content = text.encode()
     except UnicodeEncodeError as error:
         raise DataError(f"{path}: a name holds half a character, {error.object[error.start]!r}; rename it") from None
-    check_size(path, content, module.LARGEST)
+    check_size(path, content, LARGEST_OURS)
     write_whole(path, content)
 
 

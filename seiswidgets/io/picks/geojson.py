@@ -4,12 +4,11 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import LARGEST_JSON, Entry, json_text, read_json
+from seiswidgets.io.document import Entry, json_text, read_json
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
 
 MARK = "seiswidgets_picks"  # a foreign member, as RFC 7946 allows
 VERSION = 1
-LARGEST = LARGEST_JSON
 GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}
 
 

@@ -7,11 +7,10 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import read_text
+from seiswidgets.io.document import LARGEST_OURS, lines, read_text
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
 from seiswidgets.io.picks.numbers import number
 
-LARGEST = 16 * 2**20  # bytes; about as many points as the largest JSON holds
 COLUMNS = ("kind", "name", "piece", "x", "z")
 
 
@@ -25,7 +24,7 @@ def read(path: Path) -> Found:
     if header is None:
         raise DataError(f"{path} is empty; its first row must name the columns {', '.join(COLUMNS)}")
     columns, units = _columns(path, header)
-    lines: dict[tuple[str, str, str], tuple[str, list]] = {}
+    drawn: dict[tuple[str, str, str], tuple[str, list]] = {}
     for place, row in rows:
         if len(row) != len(header):
             raise DataError(
@@ -36,13 +35,13 @@ def read(path: Path) -> Found:
         if kind not in (FAULT, HORIZON):
             raise DataError(f"{path}: {place}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
         point = tuple(number(path, place, column, row[columns[column]]) for column in ("x", "z"))
-        lines.setdefault((kind, name, piece), (place, []))[1].append(point)
-    found = tuple(Line(kind, name, tuple(points), place) for (kind, name, _), (place, points) in lines.items())
+        drawn.setdefault((kind, name, piece), (place, []))[1].append(point)
+    found = tuple(Line(kind, name, tuple(points), place) for (kind, name, _), (place, points) in drawn.items())
     return Found(found, units["x"], units["z"])
 
 
 def _rows(path):
-    reader = csv.reader(io.StringIO(read_text(path, LARGEST), newline=""), strict=True)
+    reader = csv.reader(lines(read_text(path, LARGEST_OURS)), strict=True)
     try:
         for row in reader:
             if row:
