@@ -2,15 +2,16 @@
 
 from collections.abc import Mapping
 from os import PathLike
-from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.choices import Choices, Progress, tell
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.matrices import open_array, open_text, preview_array, preview_text
+from seiswidgets.io.paths import existing_file
 from seiswidgets.io.pictures import open_picture, preview_picture
 from seiswidgets.io.segy import open_segy, preview_segy
+from seiswidgets.io.segylayout import begins_like_segy
 
 READERS = {
     "SEG-Y": (open_segy, preview_segy),
@@ -97,7 +98,7 @@ def open_section(
     Cancelled
         If ``progress`` returned False.
     """
-    path = _existing(path)
+    path = existing_file(path)
     choices = Choices(
         dx=dx,
         dz=dz,
@@ -127,20 +128,8 @@ def preview(path: str | PathLike) -> SectionInfo:
     DataError
         As for ``open_section``.
     """
-    path = _existing(path)
+    path = existing_file(path)
     return _read(path, lambda _, preview: preview(path))
-
-
-def _existing(path):
-    try:
-        path = Path(path).expanduser()
-        if not path.is_file():
-            raise DataError(f"{path} is {'a folder' if path.is_dir() else 'not there'}; give the path of a file")
-    except (OSError, RuntimeError, ValueError) as error:  # of names that cannot be a file's, and unknown homes
-        if isinstance(error, DataError):
-            raise
-        raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {error}; correct it") from error
-    return path
 
 
 def _read(path, act):
@@ -165,8 +154,16 @@ def _kind(path):
     if kind in ("SEG-Y", "text"):
         return kind
     if kind is not None:
-        raise DataError(f"{path} is called {path.suffix}, but does not begin like one; it is damaged, or misnamed")
-    return "text" if _looks_like_text(head) else "SEG-Y"
+        raise DataError(
+            f"{path} is called {path.suffix}, but does not begin like one; it is damaged, or misnamed: save it anew"
+        )
+    if begins_like_segy(head):
+        return "SEG-Y"
+    if _looks_like_text(head):
+        return "text"
+    raise DataError(
+        f"{path} is of no kind that is read here; convert it to SEG-Y, PNG, JPEG, TIFF, .npy, .npz or a text of numbers"
+    )
 
 
 def _looks_like_text(head):
