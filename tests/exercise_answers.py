@@ -19,7 +19,7 @@ ANSWERS = {
             "the top of the section",
             {
                 "the base of the section": "pulled apart",
-                "all of it alike": "The median",
+                "all of it alike": "keeps its length",
                 "the rock along the fault": "nearly nothing",
             },
         ),
