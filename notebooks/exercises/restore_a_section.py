@@ -57,7 +57,7 @@ def narrowed(top: float, base: float) -> Choice:
             ),
             (
                 "all of it alike",
-                "H2 keeps its length. The beds above and below it cannot: they go round the same bend, farther out or in.",
+                "H2 keeps its length. Rock above and below it cannot: it goes round the same bend, farther out or in.",
             ),
             ("the rock along the fault", "Look at the report of the unfaulting: it deformed nearly nothing."),
         ),
