@@ -75,7 +75,12 @@ ANSWERS = {
         ("31.7", {"63.4": "take half", "17.6": "number of milliseconds", "9.8": "more metres"}),
         (
             "throw in metres",
-            {"throw in ms": "no velocity comes in", "likeness": "it changes by", "none of them": "is not level"},
+            {
+                "throw in ms": "no velocity comes in",
+                "likeness": "it changes by",
+                "deformation": "not in proportion",
+                "none of them": "as steeply",
+            },
         ),
     ],
     "07_limits": [

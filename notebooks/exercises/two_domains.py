@@ -45,7 +45,7 @@ def mispick(error: float, torn: float, throw: float, heave: float) -> Number:
     """How far off a pick is today that came to the other side of a fault; errors, throw and heave in m."""
     slip = hypot(throw, heave)
     return Number(
-        f"Just above the fault a pick is {error:.0f} m too deep in the restored section, and so comes to the other side "
+        f"Just above the fault a pick is {error:.0f} m too deep in the restored section, and comes to the other side "
         "of it. How far off is it today?",
         torn,
         "m",
