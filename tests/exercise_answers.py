@@ -49,7 +49,7 @@ ANSWERS = {
     "04_flattening": [
         (
             "7.3 %",
-            {"7.9": "was there before", "13.4": "steepest limb", "92.7": "is left", "0": "longer than a level one"},
+            {"7.9": "what was before", "13.4": "steepest limb", "92.7": "is left", "0": "longer than a level one"},
         ),
         (
             "only how high everything lies",
