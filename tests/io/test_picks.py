@@ -229,6 +229,9 @@ def test_charisma_horizon_lies_along_an_inline_or_a_crossline(tmp_path):
         path, DEPTH, line="xline 300", along=lambda x, y, trace: 25.0 * (trace - 362), **choices
     ).horizons
     np.testing.assert_array_equal(cross.pieces[0], [(0, 500), (25, 600)])
+    far = sw.Section(DEPTH.amplitude, dx=0.01, dz=10.0, x0=5.0, x_unit="km")  # what is distance comes in metres here
+    (in_km,) = sw.read_picks(path, far, line="inline 362", along=route, **choices).horizons
+    np.testing.assert_allclose(in_km.pieces[0][:, 0], 5.0 + (horizon.pieces[0][:, 0] - 50.0) / 1000)
     with pytest.raises(DataError, match=r"row 5 lies .* beside the line given as along="):
         sw.read_picks(path, DEPTH, line="inline 363", along=route, **choices)
 

@@ -4,7 +4,7 @@ import os
 
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.geology.section import Section
+from seiswidgets.geology.section import METRES, Section
 from seiswidgets.io.document import LARGEST_OURS, check_size, shortened
 from seiswidgets.io.paths import user_path
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
@@ -79,7 +79,9 @@ def read_picks(
         found = OURS[chosen].read(path)
         lines = found.lines
     else:
-        found = EXPORTS[chosen](path, Choices(line, along, section.x0))
+        here = METRES[section.x_unit]
+        start = section.x0 * here / METRES.get(x_unit, here)  # in the file's unit, as all that it gives
+        found = EXPORTS[chosen](path, Choices(line, along, start))
         lines = without_single_points(path, found.lines)
         if not z_up:
             _check_sign(path, lines, section)
