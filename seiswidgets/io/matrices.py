@@ -66,8 +66,9 @@ def open_array(path: Path, choices: Choices, _progress: Progress | None) -> Sect
     return section_of(path, amplitude, choices, **stored | choices.axes(path, amplitude.shape))
 
 
-def preview_array(path: Path) -> SectionInfo:
+def preview_array(path: Path, choices: Choices) -> SectionInfo:
     """What an array's file holds, from its header; an .npz file has to be read."""
+    choices.refuse(OF_SEGY, "an array")
     stored = {}
     with _honest(path, ANEW), path.open("rb") as file:
         if zipfile.is_zipfile(file):
@@ -99,8 +100,9 @@ def open_text(path: Path, choices: Choices, _progress: Progress | None) -> Secti
     return section_of(path, amplitude, choices, **choices.axes(path, amplitude.shape))
 
 
-def preview_text(path: Path) -> SectionInfo:
+def preview_text(path: Path, choices: Choices) -> SectionInfo:
     """What a text holds; only its first row is read as numbers."""
+    choices.refuse(OF_SEGY, "a text")
     columns = _numbers(path, rows=1).shape[-1]
     with _honest(path, PLAIN), path.open(encoding="utf-8-sig") as file:
         rows = sum(bool(line.partition("#")[0].strip()) for line in file)

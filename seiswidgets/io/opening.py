@@ -120,16 +120,23 @@ def open_section(
     return section
 
 
-def preview(path: str | PathLike) -> SectionInfo:
+def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = None) -> SectionInfo:
     """What a file holds and which choices it needs, without reading it all.
+
+    Parameters
+    ----------
+    path : str or Path
+    header_bytes : dict, optional
+        Of SEG-Y, as for ``open_section``.
 
     Raises
     ------
-    DataError
+    DataError, SettingError
         As for ``open_section``.
     """
     path = existing_file(path)
-    return _read(path, lambda _, preview: preview(path))
+    choices = Choices(header_bytes=header_bytes)
+    return _read(path, lambda _, preview: preview(path, choices))
 
 
 def _read(path, act):

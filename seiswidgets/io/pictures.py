@@ -52,8 +52,9 @@ def open_picture(path: Path, choices: Choices, _progress: Progress | None) -> Se
     return section_of(path, amplitude, choices, **fields)
 
 
-def preview_picture(path: Path) -> SectionInfo:
+def preview_picture(path: Path, choices: Choices) -> SectionInfo:
     """What a picture holds, without decoding it."""
+    choices.refuse(OF_SEGY, "a picture")
     with _picture(path) as image:
         return SectionInfo(
             path=path,

@@ -11,7 +11,7 @@ from seiswidgets.io.choices import Choices, Progress, checked_size, section_of, 
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.optional import required
 from seiswidgets.io.segylayout import layout
-from seiswidgets.io.segyline import TraceHeaders, checked_bytes, first_line, line, lines_of_volume, spacing
+from seiswidgets.io.segyline import TraceHeaders, checked_bytes, course, first_line, line, lines_of_volume, spacing
 
 BLOCK = 256  # traces between two reports of progress
 PREVIEWED = 10_000  # traces that a preview looks at, for their spacing
@@ -107,12 +107,32 @@ def _samples(headers, traces, progress):
     return amplitude
 
 
-def preview_segy(path: Path) -> SectionInfo:
+def line_on_map(path: Path, **line_choices) -> np.ndarray:
+    """Map coordinates that the line of a SEG-Y file runs through, from its first trace on; shape (m, 2).
+
+    Parameters
+    ----------
+    path : Path
+    **line_choices
+        The line, as for ``open_section``: inline, crossline, traces, header_bytes.
+
+    Raises
+    ------
+    DataError, SettingError
+        If there is no such line, or its positions are missing, uneven or angles.
+    """
+    choices = Choices(**line_choices)
+    with trace_headers(path, choices) as headers:
+        return course(headers, line(headers, choices, None))
+
+
+def preview_segy(path: Path, choices: Choices) -> SectionInfo:
     """What a SEG-Y file holds; reads its headers alone, and of a volume only some."""
-    with trace_headers(path, Choices()) as headers:
+    with trace_headers(path, choices) as headers:
         found, lines = headers.layout, lines_of_volume(headers)
         first = np.arange(min(PREVIEWED, first_line(headers)[2] if lines else found.traces))
-        dx, dz, z0 = (_or_none(measure, headers, first) for measure in (spacing, _interval, _delay))
+        measured = [_measured(measure, headers, first) for measure in (spacing, _interval, _delay)]
+    (dx, dz, z0), reasons = zip(*measured, strict=True)
     return SectionInfo(
         path=path,
         kind="SEG-Y",
@@ -131,11 +151,13 @@ def preview_segy(path: Path) -> SectionInfo:
         inlines=lines.get("inline"),
         crosslines=lines.get("crossline"),
         header=found.text,
+        reasons=tuple(filter(None, reasons)),
     )
 
 
-def _or_none(measure, headers, traces):
+def _measured(measure, headers, traces):
+    """A number and no reason, or none and the reason."""
     try:
-        return measure(headers, traces)
-    except DataError:
-        return None
+        return measure(headers, traces), ""
+    except DataError as error:
+        return None, str(error)

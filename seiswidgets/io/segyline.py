@@ -217,9 +217,14 @@ def _numbers_there(headers, name):
 
 
 def spacing(headers: TraceHeaders, traces: np.ndarray) -> float:
-    """Distance between the traces of a line, from their positions, in their own unit.
+    """Distance between the traces of a line, from their positions, in their own unit; errors as for ``course``."""
+    return float(np.hypot(*np.diff(course(headers, traces), axis=0).T).sum()) / (len(traces) - 1)
 
-    A straight line is measured from end to end, since rounded positions make the way along them longer.
+
+def course(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
+    """Where a line runs on the map, in its own unit: through the positions of its traces, shape (m, 2).
+
+    A straight line is given by its ends, since rounded positions make the way along them longer.
 
     Raises
     ------
@@ -235,9 +240,9 @@ def spacing(headers: TraceHeaders, traces: np.ndarray) -> float:
     off = np.abs(steps - typical)
     if off.max() > EVEN * typical + 1.5 * rounding:  # both ends are rounded, in x and in y
         raise DataError(_uneven(headers, traces, steps, int(np.argmax(off))))
-    chord = float(np.hypot(x[-1] - x[0], y[-1] - y[0]))
-    length = chord if steps.sum() <= (1 + STRAIGHT) * chord else float(steps.sum())
-    return length / len(steps)
+    chord = np.hypot(x[-1] - x[0], y[-1] - y[0])
+    places = np.column_stack([x, y])
+    return places[[0, -1]] if steps.sum() <= (1 + STRAIGHT) * chord else places
 
 
 def _uneven(headers, traces, steps, worst):

@@ -107,6 +107,8 @@ def test_axes_are_asked_for(tmp_path):
         sw.open_section(path, extent=EXTENT)
     assert sw.preview(path).needed == ("extent", "z_unit or velocity")
     assert sw.preview(path).shape == (2, 3)
+    with pytest.raises(sw.SettingError, match="header_bytes= has no meaning for a picture"):
+        sw.preview(path, header_bytes={"x": 73})
 
 
 @pytest.mark.parametrize("extent", [(300, 100, 0, 1), (0, 1, 2), "wide", (0, np.inf, 0, 1)])

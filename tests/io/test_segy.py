@@ -1,4 +1,5 @@
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 import segyio
 
 import seiswidgets as sw
+from seiswidgets.io.segy import line_on_map
 from seiswidgets.io.segylayout import decoded
 from tests.io.segyfiles import ibm, numbered, segy_bytes, straight, volume_headers
 
@@ -290,6 +292,40 @@ def test_choices_of_another_kind(save, chosen):
     (name,) = chosen
     with pytest.raises(sw.SettingError, match=f"{name} must be a .*, but is"):
         sw.open_section(save(RAMP, straight(3)), z_unit="m", **chosen)
+
+
+def test_a_preview_reads_the_bytes_that_are_chosen(save):
+    headers = volume_headers(INLINES, CROSSLINES, il=9, xl=21)
+    path = save(numbered(headers, il=9, xl=21), headers)
+    assert sw.preview(path).inlines is None
+    assert sw.preview(path, header_bytes={"inline": 9, "crossline": 21}).inlines == (10, 12, 3)
+    with pytest.raises(sw.SettingError, match="no number starts"):
+        sw.preview(path, header_bytes={"x": 182})
+
+
+@pytest.mark.parametrize(
+    ("headers", "match"),
+    [
+        ([{181: x} for x in (0, 25, 50, 110)], "unevenly spaced traces: most are 25 apart"),
+        ([{73: x} for x in (0, 25, 50, 75)], "no positions of its traces.*Others stand at bytes 73 and 77"),
+        ([{181: x, 89: 2} for x in (0, 25, 50, 75)], "positions in degrees"),
+    ],
+)
+def test_a_preview_says_why_positions_are_of_no_use(save, headers, match):
+    info = sw.preview(save(np.arange(16).reshape(4, 4), headers))
+    assert info.dx is None
+    (reason,) = info.reasons
+    assert re.search(match, reason)
+
+
+def test_a_line_on_the_map_runs_through_its_traces(save):
+    headers = volume_headers(INLINES, CROSSLINES)
+    path = save(numbered(headers), headers)
+    np.testing.assert_array_equal(line_on_map(path, crossline=203), [[5075, 500], [5075, 600]])
+    bent = [(0, 0), (30, 40), (60, 80), (110, 80), (160, 80)]
+    path = save(np.arange(20).reshape(5, 4), [{181: x, 185: y} for x, y in bent])
+    np.testing.assert_array_equal(line_on_map(path), bent)
+    assert sw.open_section(path, z_unit="m").dx == 50
 
 
 @pytest.mark.parametrize(("chosen", "message"), [({"x": 182}, "byte 182 .* no number starts"), ({"cdp": 21}, "'cdp'")])
