@@ -10,7 +10,7 @@ from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io import writing
 from seiswidgets.io.autosave import found, numbered
 from seiswidgets.widgets.app import RestorationApp
-from tests.widgets.hands import appear, drag_to, draw, keys, press, release
+from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
 
 LONG = 60
 FAULT, OTHER = [(2000.0, 200.0), (2400.0, 1200.0)], [(3000.0, 200.0), (3300.0, 1200.0)]
@@ -112,6 +112,18 @@ def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
     assert session.plan == app.plan == sw.Plan((sw.Step("unfault"),), sw.Weights(stitch=33.0), spacing=77.0)
     assert session.fixed == (100.0, 100.0)
     assert session.source == SOURCE
+
+
+def test_a_point_held_is_work_too(new_app, path, section):
+    app = new_app(session=path)
+    app.picker.mode = "block"
+    click(app.panes.original, (1000.0, 500.0))
+    app.close()
+    assert found(path)[0].session.fixed == pytest.approx((1000.0, 500.0))
+    again = new_app(session=path)
+    assert ": 0 faults, 0 horizons, a point held (work.00000" in again.keeper.versions.options[0][0]
+    choose(again, "Open")
+    assert again.fixed == app.fixed
 
 
 def test_what_is_dragged_is_saved_when_it_is_let_go(new_app, path):
@@ -331,5 +343,13 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     app.files.session.path.value = str(tmp_path / "work.json")
     app.files.session._keep()
     assert app.session_path == tmp_path / "work.json"
+    assert f"Every edit is saved in {tmp_path / 'work.json'}" in app.files.session.notice.text
+    draw_fault(app)
     app.session_path = None
     assert app.session_path is None
+    app.files.session._keep()
+    assert "choose above the section" in app.files.session.notice.text
+    app.files.session.path.value = ""
+    app.files.session._keep()
+    assert app.session_path is None
+    assert "Nothing is saved" in app.files.session.notice.text

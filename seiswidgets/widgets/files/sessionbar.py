@@ -136,9 +136,9 @@ class SessionBar(VBox):
         self._take_edit()
 
     def _take_edit(self, change=None):
-        """Have the work saved, from the first pick on."""
+        """Have the work saved, from the first pick or held point on."""
         app, drawn = self._app, self._app.picker.drawing
-        self._has_work = self._has_work or bool(drawn.picks)
+        self._has_work = self._has_work or bool(drawn.picks) or drawn.fixed is not None
         if self._autosave is not None and self._has_work:
             self._autosave.save(session_of(drawn, app.plan, app.section, self._sha256, app.source, self.path))
 
@@ -236,4 +236,5 @@ def _words(version: Version) -> str:
     """A version in a line: when it was saved, and what it holds."""
     faults, horizons = len(version.session.faults), len(version.session.horizons)
     picks = f"{faults} fault{'s' * (faults != 1)}, {horizons} horizon{'s' * (horizons != 1)}"
+    picks += ", a point held" * (version.session.fixed is not None)
     return f"{version.saved:%d %b %Y, %H:%M:%S}: {picks} ({version.path.name})"
