@@ -114,7 +114,7 @@ def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
     assert session.source == SOURCE
 
 
-def test_a_point_held_is_work_too(new_app, path, section):
+def test_a_point_held_is_work_too(new_app, path):
     app = new_app(session=path)
     app.picker.mode = "block"
     click(app.panes.original, (1000.0, 500.0))
