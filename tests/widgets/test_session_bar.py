@@ -345,10 +345,14 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     assert app.session_path == tmp_path / "work.json"
     assert f"Every edit is saved in {tmp_path / 'work.json'}" in app.files.session.notice.text
     draw_fault(app)
+    app.session_path = tmp_path / "work.json"
+    assert app.keeper.notice.answers == {}  # about its own work it does not ask
     app.session_path = None
     assert app.session_path is None
     app.files.session._keep()
     assert "choose above the section" in app.files.session.notice.text
+    choose(app, "Start anew")
+    assert app.files.session.notice.text == ""
     app.files.session.path.value = ""
     app.files.session._keep()
     assert app.session_path is None

@@ -72,6 +72,7 @@ class SessionFile(VBox):
         super().__init__([HBox([self.path, keep]), self.notice])
         keep.on_click(lambda _: self._keep())
         app.keeper.observe(lambda change: self._take_path(), "path")
+        app.keeper.notice.observe(lambda change: self.notice.hint(""), "text")  # as when its question was answered
         self._take_path()
 
     def _keep(self):

@@ -66,6 +66,8 @@ class SessionBar(VBox):
             self.end()
             return
         path = _checked(path)
+        if path == self.path and self._autosave is not None:
+            return
         with contextlib.suppress(DataError):  # whose remedy may be this path: all that is drawn is saved there
             self.end()
         self._failure.hint("")
