@@ -20,7 +20,7 @@ from seiswidgets.widgets.picking.drawing import Drawing
 KINDS = ".sgy,.segy,.seg,.png,.jpg,.jpeg,.tif,.tiff,.npy,.npz,.txt,.csv,.asc,.tsv"
 HEADER = (
     "<details><summary>textual header</summary>"
-    '<pre style="line-height: 1.2; overflow: auto; max-height: 240px">{}</pre></details>'
+    '<pre tabindex="0" style="line-height: 1.2; overflow: auto; max-height: 240px">{}</pre></details>'
 )
 KEEP, DROP, BACK = "Keep the picks", "Drop the picks", "Do not open"
 
