@@ -185,6 +185,19 @@ def test_our_own_file_needs_nothing(app, case, tmp_path):
     np.testing.assert_array_equal(app.section.amplitude, case.section.amplitude)
 
 
+def test_of_an_archive_only_what_it_lacks_is_asked_for(app, tmp_path):
+    amplitude = np.random.default_rng(0).normal(size=(11, 21))
+    np.savez(tmp_path / "axes.npz", amplitude=amplitude, dx=5.0, dz=2.0)
+    opener = load(app, tmp_path / "axes.npz", velocity="1800")
+    assert list(opener.fields.fields) == ["z_unit", "velocity", "x_unit"]
+    assert (app.section.velocity, app.section.dx) == (1800.0, 5.0)
+    np.savez(tmp_path / "units.npz", amplitude=amplitude, z_unit="m")
+    opener = load(app, tmp_path / "units.npz", x_max="40", z_max="50")
+    assert list(opener.fields.fields) == ["x_min", "x_max", "z_min", "z_max"]
+    assert "does not say: left edge, right edge, top, bottom." in opener.fields._note.value
+    assert app.section.extent == (0.0, 40.0, 0.0, 50.0)
+
+
 @pytest.mark.parametrize("content", [b"", b"\x89PNG but not really", b"some words, no numbers"])
 def test_what_cannot_be_opened_is_said_and_changes_nothing(app, case, tmp_path, content):
     path = tmp_path / f"{HOSTILE.replace('/', '')}.sgy"
@@ -595,6 +608,7 @@ def test_results_say_what_they_need(restored, tmp_path):
     for folder, stem, match in (
         ("", "", "give the folder"),
         (str(tmp_path / "none" / "out"), "", "cannot be made"),
+        ("~nobody-of-that-name/out", "", "home"),
         (str(tmp_path), "../up", "a name without folders"),
         (str(tmp_path), "..", "a name without folders"),
     ):

@@ -335,6 +335,8 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     app = new_app()
     with pytest.raises(SettingError, match=r"must end in \.json"):
         app.session_path = tmp_path / "work.txt"
+    with pytest.raises(DataError, match="home"):
+        app.session_path = "~nobody-of-that-name/work.json"
     with pytest.raises(DataError, match="there is no folder"):
         app.session_path = tmp_path / "none" / "work.json"
     app.files.session.path.value = "work.txt"

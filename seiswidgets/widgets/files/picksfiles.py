@@ -2,14 +2,13 @@
 
 import warnings
 from functools import partial
-from os.path import expanduser
-from pathlib import Path
 
 from ipywidgets import Button, Checkbox, Dropdown, HBox, Layout, Text, VBox
 
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import METRES, SECONDS
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.picks import read_picks, write_picks
 from seiswidgets.io.picks.files import EXPORTS
 from seiswidgets.widgets.files.chore import Chore
@@ -97,7 +96,7 @@ class PicksFiles(VBox):
             along, line = self._along(), self.line.value.strip() or None
             choices |= {"z_up": self.z_up.value, "along": along, "line": line}
         self.notice.hint("Reading ...")
-        self.chore.begin(partial(self._picks_of, expanduser(self.file.path), self._app.section, choices))
+        self.chore.begin(partial(self._picks_of, self.file.path, self._app.section, choices))
 
     def write(self, replace: bool = False) -> None:
         """Write the picks, and say where; ask before another file is replaced.
@@ -107,7 +106,7 @@ class PicksFiles(VBox):
         DataError, SettingError
             As for `write_picks`.
         """
-        path = Path(expanduser(self.out.value.strip()))
+        path = user_path(self.out.value.strip())
         if path.is_file() and not replace:
             again = partial(self._said, partial(self.write, replace=True))
             self.notice.ask(f"{path} exists already.", {REPLACE: again, LEAVE: lambda: None})

@@ -12,6 +12,7 @@ from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.io.meshes import save_mesh
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.reports import save_report
 from seiswidgets.io.results import save_section
 from seiswidgets.io.sources import SectionSource
@@ -151,7 +152,7 @@ def _made(folder):
     """A folder, made if its parent is there."""
     if not folder:
         raise SettingError("give the folder that the files shall be written into")
-    path = Path(folder).expanduser()
+    path = user_path(folder)
     try:
         path.mkdir(exist_ok=True)
     except (OSError, ValueError) as error:

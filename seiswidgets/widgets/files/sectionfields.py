@@ -47,7 +47,7 @@ class SectionFields(VBox):
         self._info, self.fields = info, {}
         if info.kind == "SEG-Y":
             self._ask_line()
-        if info.needed:
+        if any("z_unit" in need for need in info.needed):
             self._ask_units()
         if any("extent" in need for need in info.needed):
             self._ask_extent()
@@ -129,15 +129,13 @@ class SectionFields(VBox):
 
     def _take_units(self, change=None):
         """Name the units behind what they are of, and say what is assumed."""
-        if "z_unit" not in self.fields:
-            self._note.value = ""
-            return
-        z_unit, x_unit = self.fields["z_unit"].value, self.fields["x_unit"].value
-        self.fields["velocity"].layout.display = "" if z_unit in SECONDS else "none"
-        for name in self.fields.keys() & {*OF_X, *OF_Z}:
-            words = EXTENT.get(name) or LABELS[name]
-            self.fields[name].description = f"{words} ({x_unit if name in OF_X else z_unit})"
-            self.fields[name].placeholder = self._placeholder(name)
+        units = {name: self.fields[name].value for name in ("x_unit", "z_unit") if name in self.fields}
+        if units:
+            self.fields["velocity"].layout.display = "" if units["z_unit"] in SECONDS else "none"
+            for name in self.fields.keys() & {*OF_X, *OF_Z}:
+                unit = units["x_unit" if name in OF_X else "z_unit"]
+                self.fields[name].description = f"{EXTENT.get(name) or LABELS[name]} ({unit})"
+                self.fields[name].placeholder = self._placeholder(name)
         self._note.value = self._said()
 
     def _placeholder(self, name):
@@ -153,12 +151,14 @@ class SectionFields(VBox):
     def _said(self):
         """What is not in the file, as HTML: why not, and which fields hold no more than a usual value."""
         reasons = "".join(REASON.format(escape(in_labels(reason))) for reason in self._info.reasons)
-        assumed = ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
-        assumed += [] if self._info.x_unit else ["unit of x"]
+        assumed = []
+        if "z_unit" in self.fields:
+            assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
+            assumed += [] if self._info.x_unit else ["unit of x"]
         assumed += [LABELS[name] for name in ("dx", "dz", "z0") if name in self._info.needed]
         assumed += [words for name, words in EXTENT.items() if name in self.fields]
         cropped = CROPPED if self._info.kind == "picture" else ""
-        return reasons + HINT.format(ASSUMED.format(", ".join(assumed)) + cropped)
+        return reasons + (HINT.format(ASSUMED.format(", ".join(assumed)) + cropped) if assumed else "")
 
     def _ask(self, name, words, value):
         text = value if isinstance(value, str) else f"{value:g}"

@@ -9,6 +9,7 @@ from traitlets import Instance
 
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io.autosave import Autosave, Version, found, numbered, set_aside
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.sources import FILE, resolved, section_sha256
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.sessions import drawing_of, session_of
@@ -226,7 +227,7 @@ class SessionBar(VBox):
 
 
 def _checked(path):
-    path = Path(path).expanduser().absolute()
+    path = user_path(path).absolute()
     if path.suffix.lower() != ".json":
         raise SettingError(f"{path} must end in .json, as a session's file does")
     if not path.parent.is_dir():
