@@ -384,7 +384,7 @@ def test_an_upload_on_a_full_disk_is_said(monkeypatch):
         def write(self, piece):
             raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "open", lambda *_: Full())
+    monkeypatch.setattr(Path, "open", lambda *_, **__: Full())
     assert send(field, "line.sgy", b"abc") == [0, None]
     assert "'line.sgy' was not uploaded: it cannot be stored: No space left on device" in field.error
     field.end()

@@ -62,7 +62,7 @@ class PicksFiles(VBox):
         self.x_unit, self.z_unit = _chooser("unit of x", {}), _chooser("unit of z", {})
         self.z_up = Checkbox(description="z grows upwards in the file", indent=False)
         self.along = _chooser(LABELS["along"], PLACES)
-        self.points = _text("points of the line", "X Y of its first trace; X Y of its last; more between")
+        self.points = _text("points of the line", "X Y of its first trace; X Y of its last, in the unit of x")
         self.line = _text(LABELS["line"], "its name, if there are several")
         self.keep = _chooser("picks drawn", {"stay, but for the same names": True, "make room": False})
         self._of_exports = VBox([self.along, self.points, self.line, self.z_up])
@@ -96,7 +96,7 @@ class PicksFiles(VBox):
             along, line = self._along(), self.line.value.strip() or None
             choices |= {"z_up": self.z_up.value, "along": along, "line": line}
         self.notice.hint("Reading ...")
-        self.chore.begin(partial(self._picks_of, self.file.path, self._app.section, choices))
+        self.chore.begin(partial(self._picks_of, self.file.path, self._app.section, self._app.source, choices))
 
     def write(self, replace: bool = False) -> None:
         """Write the picks, and say where; ask before another file is replaced.
@@ -127,14 +127,15 @@ class PicksFiles(VBox):
         self.file.end()
 
     def _along(self):
-        """Where on the section places of the file are, as `read_picks` takes it."""
+        """Where on the section places of the file are, as `read_picks` takes it; or SEGY."""
         if self.along.value is None:
             raise SettingError(f"the file has places (X, Y) on a map: choose what “{LABELS['along']}”")
-        if self.along.value == SEGY:
-            return segy_line(self._app.source)
         return points_of(self.points.value) if self.along.value == POINTS else self.along.value
 
-    def _picks_of(self, path, section, choices, tell):
+    def _picks_of(self, path, section, source, choices, tell):
+        """Read picks, on the chore's thread."""
+        if choices.get("along") == SEGY:
+            choices["along"] = segy_line(source)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             picks = read_picks(path, section, **choices)

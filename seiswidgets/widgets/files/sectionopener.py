@@ -144,7 +144,7 @@ class SectionOpener(VBox):
             self.notice.alert(str(error))
             return
         samples, traces = section.shape
-        self.notice.hint(f"Opened: {section.name}, {traces} traces of {samples} samples.")
+        self.notice.hint(f"Opened: {section.name}, {traces:,} traces of {samples:,} samples.")
 
 
 def _described(info: SectionInfo) -> str:

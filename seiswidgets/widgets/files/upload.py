@@ -69,7 +69,7 @@ class Upload(anywidget.AnyWidget):
             return
         if self._folder is None:
             self._folder = TemporaryDirectory(prefix="seiswidgets-")
-        self._file = (Path(self._folder.name) / PART).open("wb")
+        self._file = (Path(self._folder.name) / PART).open("wb", buffering=0)  # or its end could fail when it is closed
         self._end_if_whole()
 
     def _write(self, start, piece):
