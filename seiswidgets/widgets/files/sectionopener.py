@@ -12,6 +12,7 @@ from seiswidgets.io.opening import open_section, preview
 from seiswidgets.io.sources import FILE, SectionSource
 from seiswidgets.widgets.files.chore import Chore
 from seiswidgets.widgets.files.filefield import FileField
+from seiswidgets.widgets.files.glimpse import glimpse
 from seiswidgets.widgets.files.headerbytes import HeaderBytes
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.sectionfields import SectionFields
@@ -49,7 +50,7 @@ class SectionOpener(VBox):
         self.file = FileField("section: path of a SEG-Y, picture, NumPy or text file", KINDS)
         self.header_bytes, self.fields, self.notice = HeaderBytes(), SectionFields(), Question()
         self.chore = Chore(self.notice, lambda: "Opening was cancelled; the section is as it was.")
-        self._preview, self._page = HTML(), VBox()
+        self._preview, self._glimpse, self._page = HTML(), HTML(), VBox()
         self._open = Button(description="Open section", icon="folder-open", layout=Layout(width="auto"), disabled=True)
         super().__init__([self.file, self._page, HBox([self._open, self.chore]), self.notice])
         self.file.observe(self._take_path, "path")
@@ -106,12 +107,13 @@ class SectionOpener(VBox):
         self.chore.begin(partial(self._preview_of, self.file.path, header_bytes))
 
     def _preview_of(self, path, header_bytes, tell):
-        return partial(self._show_preview, preview(path, header_bytes=header_bytes))
+        info = preview(path, header_bytes=header_bytes)
+        return partial(self._show_preview, info, glimpse(info, header_bytes, tell))
 
-    def _show_preview(self, info):
-        self._preview.value = _described(info)
+    def _show_preview(self, info, picture):
+        self._preview.value, self._glimpse.value = _described(info), picture
         self.fields.show(info)
-        self._page.children = [self._preview, *[self.header_bytes] * (info.kind == "SEG-Y"), self.fields]
+        self._page.children = [self._preview, self._glimpse, *[self.header_bytes] * (info.kind == "SEG-Y"), self.fields]
         self._is_known = True
         self._take_busy()
 
