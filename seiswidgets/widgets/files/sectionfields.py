@@ -43,6 +43,8 @@ class SectionFields(VBox):
     def show(self, info: SectionInfo) -> None:
         """Show the fields that this file needs."""
         self._info, self.has_volume = info, info.inlines is not None
+        for field in self.fields.values():
+            field.close()
         self.fields = {}
         if self.has_volume:
             self._ask_line(info)
