@@ -1,8 +1,10 @@
 """Every notebook runs from top to bottom, and checks the answers to its exercises."""
 
+import asyncio
 import json
 import os
 import re
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import nbformat
@@ -59,7 +61,9 @@ def run(path, code):
     notebook = nbformat.read(path, as_version=4)
     notebook.cells.append(new_code_cell(code))
     environment = {name: value for name, value in os.environ.items() if name != "MPLBACKEND"}  # its pictures are drawn
-    NotebookClient(notebook, timeout=120, resources={"metadata": {"path": path.parent}}).execute(env=environment)
+    client = NotebookClient(notebook, timeout=120, resources={"metadata": {"path": path.parent}})
+    with ThreadPoolExecutor(1) as alone:  # where no event loop runs: nbclient's own way would leave one open
+        alone.submit(asyncio.run, client.async_execute(env=environment)).result()
     return notebook.cells
 
 

@@ -1,4 +1,3 @@
-import os
 import sys
 
 import numpy as np
@@ -6,6 +5,7 @@ import pytest
 
 import seiswidgets as sw
 from tests.io.segyfiles import segy_bytes, straight
+from tests.leftovers import nothing_left
 
 
 @pytest.mark.parametrize("act", [sw.preview, lambda path: sw.open_section(path, z_unit="m")])
@@ -76,10 +76,8 @@ def test_a_missing_package_is_named(tmp_path, monkeypatch):
 def test_no_file_stays_open(tmp_path):
     (tmp_path / "line.sgy").write_bytes(segy_bytes(np.ones((2, 3)), straight(2)))
     np.savez(tmp_path / "line.npz", a=np.ones((2, 2)))
-    before = set(os.listdir("/proc/self/fd")) if os.path.exists("/proc/self/fd") else None
-    sw.open_section(tmp_path / "line.sgy", z_unit="m")
-    with pytest.raises(sw.SettingError, match="inline 5"):
-        sw.open_section(tmp_path / "line.sgy", z_unit="m", inline=5)
-    sw.open_section(tmp_path / "line.npz", z_unit="m", dx=1, dz=1)
-    if before is not None:
-        assert set(os.listdir("/proc/self/fd")) == before
+    with nothing_left():
+        sw.open_section(tmp_path / "line.sgy", z_unit="m")
+        with pytest.raises(sw.SettingError, match="inline 5"):
+            sw.open_section(tmp_path / "line.sgy", z_unit="m", inline=5)
+        sw.open_section(tmp_path / "line.npz", z_unit="m", dx=1, dz=1)

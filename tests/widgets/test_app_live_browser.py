@@ -10,14 +10,6 @@ from tests.widgets.appscreen import FEW, RESTORED
 from tests.widgets.test_histogram_browser import bar
 
 PLACES = "[(500.0, 400.0), (1500.0, 900.0), (2600.0, 1600.0), (3500.0, 700.0)]"
-ASLEEP = """
-from pathlib import Path
-import time
-while not Path("awake").exists(): time.sleep(0.01)
-"""
-RUN = """(code) => {
-  window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code });
-}"""
 NOTING = """
 from seiswidgets.geology.plan import Task
 asked, shown, restored, show = {}, [], Task.restored, app.panes.show
@@ -40,7 +32,7 @@ def linked_cross(screen, number):
     return float(x), float(lines.nth(1).get_attribute("y1"))
 
 
-def test_cursors_follow_each_other_while_the_kernel_sleeps_and_moves_are_not_sent(open_app, lab):
+def test_cursors_follow_each_other_while_the_kernel_sleeps_and_moves_are_not_sent(open_app):
     screen = open_app(RESTORED)
     screen.until("len(app.restoration.stages) == 2 and app.wait(30)")
     screen.pictures()
@@ -53,18 +45,16 @@ def test_cursors_follow_each_other_while_the_kernel_sleeps_and_moves_are_not_sen
         screen.page.mouse.move(box["x"] + box["width"] - 9, box["y"] + box["height"] - 9, steps=250)
     assert len(screen.opened.sent) - frames <= 30
 
-    screen.page.evaluate(RUN, ASLEEP)
     boxes = [screen.plots.nth(number).bounding_box() for number in (0, 1)]
-    for number in (0, 1):
-        other, box = 1 - number, boxes[1 - number]
-        for here, there in zip(pages[number], pages[other] - [box["x"], box["y"]], strict=True):
-            screen.page.mouse.move(*here)
-            screen.page.evaluate(
-                "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
-            )
-            assert linked_cross(screen, other) == pytest.approx(there, abs=1)
-    (lab.folder / "awake").touch()
-    screen.ask("1")
+    with screen.opened.kernel_at_work():
+        for number in (0, 1):
+            other, box = 1 - number, boxes[1 - number]
+            for here, there in zip(pages[number], pages[other] - [box["x"], box["y"]], strict=True):
+                screen.page.mouse.move(*here)
+                screen.page.evaluate(
+                    "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+                )
+                assert linked_cross(screen, other) == pytest.approx(there, abs=1)
 
 
 def test_a_line_drawn_in_the_restored_pane_is_where_to_original_says(open_app):

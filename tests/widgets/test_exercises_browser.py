@@ -3,7 +3,7 @@
 import pytest
 
 from tests.test_notebooks import NOTEBOOKS
-from tests.widgets.browser import SCREENSHOTS
+from tests.widgets.browser import keep_picture
 
 CELL = f"""
 import sys
@@ -26,8 +26,7 @@ def test_answers_are_given_and_checked(notebook, dark):
     page.get_by_label("only how high everything lies").check()
     choice.click()
     page.get_by_role("status").filter(has_text="moves up or down as one").wait_for()
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / f"exercises{'_dark' * dark}.png")
+    keep_picture(page, f"exercises{'_dark' * dark}")
     page.get_by_label("Answer (m)").fill("87 m")
     number.click()
     page.get_by_role("status").filter(has_text="Right.").nth(1).wait_for()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from tests.widgets.browser import READY, SCREENSHOTS
+from tests.widgets.browser import READY, keep_picture
 from tests.widgets.files import line
 
 APP = """
@@ -89,8 +89,7 @@ def show(opened, tab):
 
 
 def shoot(opened, called):
-    SCREENSHOTS.mkdir(exist_ok=True)
-    opened.page.screenshot(path=SCREENSHOTS / f"{called}.png")
+    keep_picture(opened.page, called)
 
 
 def test_a_kernel_killed_in_mid_drag_loses_no_finished_edit(app, name):
