@@ -172,7 +172,7 @@ def test_a_name_is_shown_as_text_everywhere(open_app):
     screen.tab("Report")
     screen.page.get_by_role("tabpanel").get_by_text(NAME).first.wait_for()
     screen.tab("Steps")
-    assert screen.page.locator(f"option:text-is('{NAME}')").count() > 0
+    screen.page.locator(f"option:text-is('{NAME}')").first.wait_for(state="attached")
     far = "sw.Fault([(100.0, 100.0), (150.0, 500.0)], app.interpretation.faults[0].name)"
     screen.ask(f"app.set_trait('interpretation', sw.Interpretation([{far}], app.interpretation.horizons))")
     screen.button("Restore").click()
