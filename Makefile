@@ -40,7 +40,7 @@ format: $(VENV)/.test  ## put code and notebooks into the form that check wants
 bench: $(VENV)/.bench  ## measure, beside other libraries
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
 
-docs: $(VENV)/.docs  ## make the pages of the documentation in docs/_build
+docs: $(VENV)/.docs  ## make the pages of the documentation in docs/_build, notebooks and their pictures among them
 	$(BIN)/sphinx-build -W --keep-going -q -c docs $(DOCS_ARGS) . docs/_build/html
 	@echo "open docs/_build/html/docs/index.html"
 

@@ -3,6 +3,7 @@
 JupyterLab and Chromium run on this machine; there is no network in between.
 """
 
+import re
 import shutil
 import tempfile
 from contextlib import contextmanager
@@ -12,7 +13,7 @@ import numpy as np
 from timing import at_most, told
 
 WIDE, HIGH = 2080, 1300  # css pixels of the window: each pane's plot area is then about 900 by 600
-FIRST, MEDIAN, P95 = 2.0, 0.1, 0.2  # seconds
+FIRST, MEDIAN, P95, CANCEL = 2.0, 0.1, 0.2, 0.3  # seconds
 MEMORY, STEP = 400, 2048  # megabytes that a large section adds, bytes that a step of the wheel sends
 DRAGS, RUNS, STEPS = 60, 5, 20
 PAUSE = 100  # ms between two steps
@@ -58,6 +59,18 @@ PAINTED = """() => {
   const middle = plot.getContext("2d").getImageData(plot.width / 2, plot.height / 2, 1, 1);
   return middle.data[3] > 0 && performance.now() - (window.begun ?? 0);
 }"""
+CANCELLED = """() => {
+  const cancel = [...document.querySelectorAll("button")].find((one) => one.textContent.includes("Cancel"));
+  window.took = null;
+  cancel.addEventListener("click", () => {
+    const start = performance.now();
+    const look = () => {
+      if (cancel.offsetParent === null) window.took = performance.now() - start;
+      else requestAnimationFrame(look);
+    };
+    look();
+  });
+}"""
 RUN = """(code) => {
   window.begun = performance.now();
   window.jupyterapp.shell.currentWidget.content.widgets[0].model.sharedModel.setSource(code);
@@ -78,6 +91,7 @@ def rows():
         yield from first_paint(open_notebook)
         for case in ("faulted_fold", "planar_fault"):
             yield from drags(open_notebook, case)
+        yield from cancelling(open_notebook)
         yield from wheel(open_notebook)
         yield from memory(open_notebook)
 
@@ -132,6 +146,22 @@ def drags(open_notebook, case):
     what = f"{case.replace('_', ' ')} of {max(vertices):,} vertices at {wide:.0f} x {high:.0f}: from drag to picture"
     yield in_time(f"{what}, median", np.median(waits), MEDIAN, DRAGS)
     yield in_time("  the same, 95th percentile", np.percentile(waits, 95), P95, DRAGS)
+
+
+def cancelling(open_notebook):
+    """A restoration on a fine mesh is given up as soon as it tells of an iteration."""
+    opened, seconds = settled(open_notebook(APP.format(case="faulted_fold"))), []
+    opened.ask("[setattr(app, 'live', False), setattr(app.solving, 'spacing', app.solving._middle / 4)]")
+    for _ in range(RUNS):
+        opened.page.locator("button:has-text('Restore')").click()
+        opened.page.get_by_text(re.compile("iteration [1-9]")).first.wait_for()
+        opened.page.evaluate(CANCELLED)
+        opened.page.locator("button:has-text('Cancel')").click()
+        opened.page.wait_for_function("window.took !== null")
+        seconds.append(opened.page.evaluate("window.took") / 1000)
+        opened.ask("app.wait(60)")
+    opened.close()
+    yield in_time("from a click on Cancel until the screen shows it", np.median(seconds), CANCEL, RUNS)
 
 
 def wheel(open_notebook):

@@ -1,6 +1,8 @@
 """How the pages are made from docs/, notebooks/ and the docstrings: `make docs`."""
 
 import inspect
+import os
+from pathlib import Path
 
 from traitlets import HasTraits
 
@@ -18,7 +20,11 @@ exclude_patterns = [".venv", "docs/_build", "notebooks/dashboard.ipynb"]
 
 default_role = "literal"
 myst_heading_anchors = 3
-nb_execution_mode = "off"  # make docs DOCS_ARGS="-D nb_execution_mode=force" draws the notebooks' pictures too
+nb_execution_mode = "cache"  # a notebook runs again when its code has changed
+nb_execution_cache_path = str(Path(__file__).parent / "_build" / "cache")
+nb_execution_excludepatterns = [] if "SEISWIDGETS_DATA_DIR" in os.environ else ["06_real_sections.ipynb"]
+nb_execution_timeout = 120
+nb_mime_priority_overrides = [("html", "image/png", 0)]  # the app's picture, where no kernel can run the app
 numpydoc_show_class_members = False
 autodoc_default_options = {"members": True, "member-order": "bysource"}
 autodoc_typehints = "none"  # the docstrings say what is given and in which units

@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+import traceback
 from pathlib import Path
 
 from seiswidgets import __version__
@@ -72,10 +73,13 @@ def _restored(path, name, asked):
         message = str(error)
         bar.end(message if message.startswith(str(path)) else f"{path}: {message}")
         return False
-    settled = all(stage.report.converged for stage in replay.restored.stages)
-    bar.end(
-        f"{path}: {len(replay.restored.stages)} steps{'' if settled else ', NOT all settled'}, in {replay.files[1]}"
-    )
+    except Exception as error:  # noqa: BLE001 - a fault of ours in one session must not keep the others from theirs
+        bar.end(f"{path}: {error!r}, which is a fault of seiswidgets; please report it with the lines below")
+        traceback.print_exc()
+        return False
+    stages = replay.restored.stages
+    settled = "" if all(stage.report.converged for stage in stages) else ", NOT all settled"
+    bar.end(f"{path}: {len(stages)} step{'' if len(stages) == 1 else 's'}{settled}, in {replay.files[1]}")
     for problem in replay.session.problems:
         sys.stderr.write(f"{path}: left out: {problem}\n")
     return True

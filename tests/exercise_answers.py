@@ -19,7 +19,7 @@ ANSWERS = {
             "the top of the section",
             {
                 "the base of the section": "pulled apart",
-                "all of it alike": "The median",
+                "all of it alike": "keeps its length",
                 "the rock along the fault": "nearly nothing",
             },
         ),
@@ -47,7 +47,10 @@ ANSWERS = {
         ("139", {"69": "closes one fault", "0": "fill a gap", "240": "Those are the throws"}),
     ],
     "04_flattening": [
-        ("7.9 %", {"15.5": "steepest limb", "13.4": "dip everywhere", "0": "longer than a level one"}),
+        (
+            "7.3 %",
+            {"7.9": "what was before", "13.4": "steepest limb", "92.7": "is left", "0": "longer than a level one"},
+        ),
         (
             "only how high everything lies",
             {
@@ -61,7 +64,10 @@ ANSWERS = {
     "05_two_domains": [
         ("775", {"695": "without the fault", "609": "lengthens", "845": "vertical"}),
         ("131", {"150": "That is the throw", "86": "horizontal", "0": "restored path"}),
-        ("10", {"0": "where you meant", "20": "twice", "5": "too small"}),
+        (
+            "165",
+            {"10": "away from the fault", "150": "vertical part", "86": "horizontal part", "173": "Nearly"},
+        ),
     ],
     "06_real_sections": [
         ("68°", {"32": "true proportions", "128": "No fault is steeper", "9": "pressed flat"}),
@@ -69,7 +75,12 @@ ANSWERS = {
         ("31.7", {"63.4": "take half", "17.6": "number of milliseconds", "9.8": "more metres"}),
         (
             "throw in metres",
-            {"throw in ms": "no velocity comes in", "likeness": "it changes by", "none of them": "is not level"},
+            {
+                "throw in ms": "no velocity comes in",
+                "likeness": "it changes by",
+                "deformation": "not in proportion",
+                "none of them": "as steeply",
+            },
         ),
     ],
     "07_limits": [

@@ -73,6 +73,14 @@ def test_the_form_shows_the_feedback(question, right, wrong):
         assert question.check(given).text in feedback.value
 
 
+@pytest.mark.parametrize(("question", "given", "told"), [(HEAVE, "86.6", "Right."), (TERM, "edge length", "")])
+def test_enter_checks_a_number_but_a_choice_waits_for_the_button(question, given, told):
+    _, answer, _, feedback = ask(question).children
+    before = feedback.value
+    answer.value = given  # of a text it changes when Enter is pressed
+    assert (told in feedback.value) if told else (feedback.value == before)
+
+
 def test_the_form_escapes_what_it_shows():
     nasty = "<img src=x onerror=alert(1)>"
     text, answer, button, feedback = ask(Number(nasty, 1.0, "m", 0.1, nasty, (), "")).children

@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
 
 import seiswidgets as sw
 from seiswidgets.core.mesh import Mesh
@@ -126,6 +127,15 @@ def test_picks_are_drawn_where_they_are_and_named(case):
     assert {"F1", "H1", "H2"} <= {text.get_text() for text in ax.texts}
 
 
+def test_names_are_no_formulas(case):
+    name = r"$x_{$ <b>"
+    horizons = [sw.Horizon(*case.interpretation.horizons[0].pieces, name=name)]
+    section = replace(case.section, name=name, credit=name)
+    ax = sw.plot.section(section, sw.Interpretation(horizons=horizons))
+    ax.figure.draw_without_rendering()
+    assert {ax.get_title(loc="left"), ax.texts[0].get_text()} == {name}
+
+
 def test_a_pick_outside_the_section_can_be_seen():
     astray = sw.Interpretation([sw.Fault([(0.0, 250.0), (1200.0, 400.0)])])
     assert len(sw.plot.section(DEPTH, astray).lines) == 1
@@ -225,6 +235,13 @@ def test_workflow_of_any_number_of_stages(restored, count):
     figure = sw.plot.workflow(replace(restored, stages=restored.stages[:count]))
     figure.draw_without_rendering()
     assert len(figure.axes) == count + 3
+
+
+def test_workflow_is_drawn_on_a_figure_that_is_given(restored):
+    figure = Figure()
+    assert sw.plot.workflow(restored, figure=figure) is figure
+    assert plt.get_fignums() == []
+    np.testing.assert_array_equal(figure.get_size_inches(), sw.plot.workflow(restored).get_size_inches())
 
 
 def test_workflow_can_show_the_deformation_of_another_stage(restored):

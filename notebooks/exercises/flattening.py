@@ -5,24 +5,31 @@ from math import cos, radians
 from exercises.question import Choice, Number
 
 
-def longer_than_wide(along: float, across: float, dip: float) -> Number:
-    """By how much a folded bed is longer than it is wide, from both (m) and its steepest dip (degrees)."""
-    steepest = 1 / cos(radians(dip))
+def shortening(along: float, across: float, dip: float) -> Number:
+    """The share of its former length that a fold has taken from a bed, from its length and width of today (m).
+
+    The dip (degrees) is that of its steepest limb.
+    """
+    everywhere = cos(radians(dip))
     return Number(
-        "By how much is the bed longer than it is wide, as a share of its width?",
-        100 * (along / across - 1),
+        "By what share of its former width did the fold shorten the section, if the bed kept its length?",
+        100 * (1 - across / along),
         "%",
-        0.5,
-        "So much wider was the bed before it was folded, if it kept its length.",
+        0.2,
+        "The width before was the length of the bed: what is missing of it today is the shortening.",
         (
             (
-                100 * (steepest - 1),
-                f"That would be a bed that dips at {dip:.0f}° everywhere. That is its steepest limb.",
+                100 * (along / across - 1),
+                "That is how much longer it was, as a share of today's width. Shortening counts from what was before.",
             ),
-            (100 * (1 - 1 / steepest), f"That takes {dip:.0f}° for the dip everywhere, and the length for the whole."),
+            (
+                100 * (1 - everywhere),
+                f"That would be a bed that dips at {dip:.0f}° everywhere. It is its steepest limb.",
+            ),
+            (100 * across / along, "That is the share that is left."),
             (0.0, "A line that goes up and down between two places is longer than a level one."),
         ),
-        "Take the two numbers printed above: length over width, less 1.",
+        "Before: the length of the bed. Today: its width. Take the difference, over the length before.",
     )
 
 
@@ -33,7 +40,8 @@ def what_the_datum_does(spreads: dict[float, float]) -> Choice:
     return Choice(
         "What does another datum change?",
         "only how high everything lies",
-        "Nothing holds the rock's depth: all of it moves up or down as one, and is not deformed by it.",
+        "Nothing holds the rock's depth: all of it moves up or down as one, and is not deformed by it. Which datum is "
+        "right the section does not say: it is the depth at which the bed was laid down.",
         (
             ("the deformation: a higher datum costs more", "Print spread(restored) for each datum, and compare."),
             ("the length of the horizon", "The length is that of the string. Does it matter where you lay it down?"),
@@ -49,8 +57,8 @@ def relief_left(today: float, after: float) -> Number:
         100 * after / today,
         "%",
         2.0,
-        "The truth is 0%. What is left says that this fold was not made by bending with lengths kept, or that the "
-        "picks are wrong: one number cannot say which.",
+        "The truth is 0%. What is left says that this fold was not made by bending with lengths kept, or that the two "
+        "beds were never parallel, or that the picks are wrong: one number cannot say which.",
         (
             (0.0, "That is the truth, and what vertical shear would give. Look at the number printed for H1."),
             (100.0, "It has become flatter; look at the picture of section 1."),

@@ -12,15 +12,22 @@ RIGHT, NOT_YET = "#009e73", "#d55e00"  # of a border only: told apart by the col
 def ask(question: Number | Choice) -> VBox:
     """The form of a question; the same answers can be checked in code, by ``question.check``."""
     answer, button, feedback = _field(question), Button(description="Check"), HTML(_shown(None))
-    button.on_click(lambda _: setattr(feedback, "value", _shown(question.check(answer.value))))
-    return VBox([HTML(f"<p>{escape(question.asked)}</p>"), answer, button, feedback])
+
+    def check(_):
+        feedback.value = _shown(question.check(answer.value))
+
+    button.on_click(check)
+    if isinstance(question, Number):  # a text's value changes when the key Enter is pressed
+        answer.observe(check, "value")
+    return VBox([HTML(f"<p><b>Exercise.</b> {escape(question.asked)}</p>"), answer, button, feedback])
 
 
 def _field(question):
     if isinstance(question, Choice):
         return RadioButtons(options=question.options, value=None, description="Answer", layout=Layout(width="auto"))
     label = f"Answer ({question.unit})" if question.unit else "Answer"
-    return Text(description=label, style={"description_width": "initial"}, layout=Layout(width="16em"))
+    look = {"style": {"description_width": "initial"}, "layout": Layout(width="16em")}
+    return Text(description=label, continuous_update=False, **look)
 
 
 def _shown(feedback: Feedback | None) -> str:

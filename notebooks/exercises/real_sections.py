@@ -78,12 +78,13 @@ def what_hangs_on_velocity(numbers: dict[float, dict[str, float]]) -> Choice:
         "throw in ms": "It is measured in the section as it was recorded: no velocity comes in.",
         "likeness": f"Look at the figure: it changes by {change('likeness') - 1:.0%}, while the velocity doubles.",
         "throw in metres": "Look at the figure again: this one follows the velocity.",
-        "none of them": "Look at the figure: one of the three lines is not level.",
+        "deformation": f"It grows by {change('deformation') - 1:.0%} while the velocity doubles: not in proportion.",
+        "none of them": "Look at the figure: one of its lines goes up as steeply as the velocity does.",
     }
     answer = max(next(iter(numbers.values())), key=change)
     return Choice(
         "Which of these grows in proportion to the velocity that you choose?",
         answer,
-        "Every length along z does, and with it slopes, areas and strains. Which beds match does not.",
+        "Every length along z does, and slopes, areas and strains change with it. Which beds match does not.",
         tuple((name, hint) for name, hint in hints.items() if name != answer),
     )

@@ -42,20 +42,23 @@ def motion(slips: list[float]) -> Choice:
     )
 
 
-def compressed(top: float, base: float) -> Choice:
-    """Where rock is compressed, from the area ratio at the top and at the base of a dome."""
-    if not top > 1 > base:
-        raise ValueError(f"the top must be compressed and the base dilated, but the ratios are {top:g} and {base:g}")
+def narrowed(top: float, base: float) -> Choice:
+    """Where rock is pushed together, from the width at the top and at the base of a dome, as shares of that today."""
+    if not top < 1 < base:
+        raise ValueError(f"the top must get narrower and the base wider, but their widths are {top:g} and {base:g}")
     return Choice(
-        "Which part of the dome is pushed together when H2 is levelled?",
+        "Which part of the dome is pushed together, sideways, when H2 is levelled?",
         "the top of the section",
-        f"Its beds are the outside of the arch, longer than H2, and must fit above it: the ratio there is {top:.2f}.",
+        f"The section unbends like a plate. What lies outside the arch is squeezed, here to {top:.0%} of its width.",
         (
             (
                 "the base of the section",
-                f"Its beds are the inside of the arch, and pulled apart: the ratio is {base:.2f}.",
+                f"It lies inside the arch, and is pulled apart when that opens: to {base:.0%} of its width.",
             ),
-            ("all of it alike", "The median of the ratio is 1: what is pushed together here is pulled apart there."),
+            (
+                "all of it alike",
+                "H2 keeps its length. Rock above and below it cannot: it goes round the same bend, farther out or in.",
+            ),
             ("the rock along the fault", "Look at the report of the unfaulting: it deformed nearly nothing."),
         ),
     )

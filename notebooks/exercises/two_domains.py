@@ -1,5 +1,7 @@
 """Questions of notebook 05: picking in the one domain, reading in the other."""
 
+from math import hypot
+
 from exercises.question import Number
 
 
@@ -28,8 +30,8 @@ def missing_section(above: float, below: float, throw: float, heave: float) -> N
         below - above,
         "m",
         4.0,
-        "It is a little less than the throw: the beds dip with the fault here, and it is in level beds that both are "
-        "the same.",
+        "It is called the vertical separation, and is a little less than the throw: the beds dip with the fault here, "
+        "and only in level beds both are the same.",
         (
             (throw, "That is the throw. They are the same only in level beds, and here the beds dip."),
             (heave, "That is the heave, which is horizontal. The well is vertical."),
@@ -39,19 +41,31 @@ def missing_section(above: float, below: float, throw: float, heave: float) -> N
     )
 
 
-def mispick(error: float, today: float, torn: float) -> Number:
-    """How far off a misplaced pick is today, away from faults, and next to one (all in m)."""
+def mispick(error: float, torn: float, throw: float, heave: float) -> Number:
+    """How far off a pick is today that came to the other side of a fault; errors, throw and heave in m."""
+    slip = hypot(throw, heave)
     return Number(
-        f"A pick is {error:.0f} m too deep in the restored section. How far off is it today, away from the fault?",
-        today,
+        f"Just above the fault a pick is {error:.0f} m too deep in the restored section, and comes to the other side "
+        "of it. How far off is it today?",
+        torn,
         "m",
-        1.0,
-        f"Rock that was hardly deformed hands errors on as they are. Next to the fault it is another matter: where a "
-        f"pick slips to the other side, it is off by {torn:.0f} m in the median.",
+        3.0,
+        f"The two sides are {slip:.0f} m apart today, most of it downwards; the {error:.0f} m go down as well, but on "
+        "the side that stayed up.",
         (
-            (0.0, "Mapping a point moves it; it does not know where you meant to pick."),
-            (2 * error, "The way through two stages does not add the error twice."),
-            (torn, "So far it is where the pick comes to the other side of the fault, which few do."),
+            (error, "So it is away from the fault. Here the pick and where it should be lie on either side of it."),
+            (throw, "That is the vertical part of what parts the two sides. There is a horizontal one."),
+            (heave, "That is the horizontal part of what parts the two sides. There is a vertical one."),
+            (
+                slip,
+                f"Nearly: that is the slip. But the pick went down by {error:.0f} m besides, which brings it nearer to "
+                "the side that slid down.",
+            ),
+            (
+                slip + error,
+                "Lengths in different directions do not add up; and the hanging wall slid down, to where the error is.",
+            ),
         ),
-        "The median is printed above.",
+        f"Take the throw less {error:.0f} m as one leg of a triangle, and the heave as the other; or print the median "
+        "of shift[torn].",
     )

@@ -4,7 +4,6 @@ import numpy as np
 import shapely
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 SNAP = 2.0**-30  # of the outline's width and height; what lies closer becomes one place
 MERGED = 1e-3  # of the spacing: places that lie closer to each other, or to a line, become one with it
@@ -81,13 +80,13 @@ def _noded(outline, lines):
 
 def _merged(vertices, segments, outline, reach):
     """A graph whose places lie apart: those closer than the reach become one, on the outline where one of them is."""
-    pairs = cKDTree(vertices).query_pairs(reach, output_type="ndarray")
-    if not len(pairs):
+    points = shapely.points(vertices)
+    pairs = shapely.STRtree(points).query(points, "dwithin", reach)
+    if pairs.shape[1] == len(points):  # each is near itself only
         return vertices, segments
-    near = coo_array((np.ones(len(pairs), bool), pairs.T), shape=(len(vertices),) * 2)
+    near = coo_array((np.ones(pairs.shape[1], bool), pairs), shape=(len(points),) * 2)
     _, place = connected_components(near, directed=False)
     corners = shapely.multipoints(shapely.get_coordinates(outline))
-    points = shapely.points(vertices)
     order = np.lexsort([shapely.distance(points, corners), np.round(shapely.distance(points, outline.boundary), 9)])
     _, first = np.unique(place[order], return_index=True)
     segments = np.sort(place[segments], axis=1)

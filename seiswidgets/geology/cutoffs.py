@@ -134,8 +134,7 @@ class Drawing:
 def _cutoff_points(fault, horizon):
     line = LineString(fault.points)
     found = parts([LineString(piece) for piece in horizon.pieces], [line])
-    where = lambda point: f"x={point[0]:.6g}, z={point[1]:.6g}"  # noqa: E731
-    (pair,) = Drawing({fault.name: line}, {horizon.name: found}, where, unit="").cutoffs()
+    (pair,) = Drawing({fault.name: line}, {horizon.name: found}, "x={0[0]:.6g}, z={0[1]:.6g}".format, unit="").cutoffs()
     return tuple(np.array(found[index].ends[place].point) for index, place in (pair.hanging_wall, pair.footwall))
 
 

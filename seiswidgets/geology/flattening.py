@@ -110,7 +110,8 @@ def _still_uneven(name, off):
 
 
 def _inside(lines, ground, name):
-    lines = [ground.simplified(LineString(merged(shapely.get_coordinates(line), ground.spacing))) for line in lines]
+    pieces = [merged(shapely.get_coordinates(line), ground.spacing) for line in lines]
+    lines = [ground.simplified(LineString(points)) for points in pieces if len(points) > 1]
     if not any(line.intersection(ground.outline).length > ground.spacing for line in lines):
         raise PickError(
             f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or "

@@ -64,6 +64,9 @@ class Section:
         if self.z_unit not in (*METRES, *SECONDS):
             raise SectionError(f"z_unit must be one of {', '.join([*METRES, *SECONDS])}, but is {self.z_unit!r}")
         object.__setattr__(self, "velocity", self._checked_velocity())
+        for field in ("name", "credit"):
+            if not isinstance(getattr(self, field), str):
+                raise SectionError(f"{field} must be a text, but is {getattr(self, field)!r}")
 
     def _checked_velocity(self):
         if self.velocity is None:
@@ -131,7 +134,7 @@ class Section:
         x_min, x_max, z_min, z_max = self.extent
         speed = f", {self.velocity:g} m/s" if self.is_time else ""
         name = f" {self.name!r}" if self.name else ""
-        credit = f"\n  data: {self.credit}" if self.credit else ""
+        credit = f"\n  data: {self.credit!r}" if self.credit else ""
         return (
             f"<Section{name}: {nx} traces x {nz} samples, x {x_min:g} to {x_max:g} {self.x_unit}, "
             f"z {z_min:g} to {z_max:g} {self.z_unit}{speed}>{credit}"

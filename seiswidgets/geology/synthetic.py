@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 import numpy as np
 import shapely
 from scipy.ndimage import gaussian_filter
-from scipy.optimize import brentq
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.history import (
@@ -273,7 +272,7 @@ def _piece(history, survey, faults, depth, side):
     x = np.arange(-reach, survey.width + reach, 10.0)
     ends = np.flatnonzero(np.diff(margin(x) >= 0))
     if len(ends) == 2:
-        first, last = (brentq(lambda x: margin(np.array([x]))[0], x[end], x[end + 1], xtol=1e-11) for end in ends)
+        first, last = (_zero(margin, *x[end : end + 2]) for end in ends)
         piece = survey.snapped(bed(np.linspace(first, last, int((last - first) / SPACING) + 2)))
         met = [(fault, piece[0]) for fault in faults[max(side - 1, 0) : side]]
         met += [(fault, piece[-1]) for fault in faults[side : side + 1]]
@@ -284,3 +283,15 @@ def _piece(history, survey, faults, depth, side):
         f"the horizon at {depth:g} m must have one piece in each block, from fault to fault inside the section, "
         f"but block {side} has none; choose another depth or a larger section, or deform it less"
     )
+
+
+def _zero(function, low, high):
+    """Where a function of many places changes its sign between two, to 1e-12 of their distance.
+
+    SciPy's optimizers take a quarter of a second to load, which every notebook would wait for.
+    """
+    for _ in range(4):
+        x = np.linspace(low, high, 1001)
+        (first, *_) = np.flatnonzero(np.diff(function(x) >= 0))
+        low, high = x[first : first + 2]
+    return (low + high) / 2

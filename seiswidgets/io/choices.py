@@ -2,22 +2,36 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from numbers import Integral
 from pathlib import Path
+from reprlib import repr as brief
 
 import numpy as np
 
-from seiswidgets.errors import Cancelled, DataError, SettingError
+from seiswidgets.errors import Cancelled, DataError, SectionError, SettingError
 from seiswidgets.geology.section import SECONDS, Section
 
 Progress = Callable[[float], bool | None]
 OF_SEGY = ("inline", "crossline", "traces", "header_bytes")
 OF_AXES = ("dx", "dz", "x0", "z0")
 MOST_BYTES = 2**30  # of the amplitudes of one section
+KINDS = {  # of those choices that nothing else checks
+    **dict.fromkeys(("x_unit", "z_unit", "name", "credit"), (str, "a text")),
+    **dict.fromkeys(("inline", "crossline"), (Integral, "a whole number")),
+    "traces": ((slice, range), "a slice or a range"),
+    "header_bytes": (Mapping, 'a dictionary like {"x": 73, "y": 77}'),
+}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Choices:
-    """The keywords of ``open_section``, described there; None where nothing was said."""
+    """The keywords of ``open_section``, described there; None where nothing was said.
+
+    Raises
+    ------
+    SettingError
+        If one is of a kind that it cannot be.
+    """
 
     dx: float | None = None
     dz: float | None = None
@@ -33,6 +47,12 @@ class Choices:
     crossline: int | None = None
     traces: slice | range | None = None
     header_bytes: Mapping[str, int] | None = None
+
+    def __post_init__(self):
+        for name, value in self.given(KINDS).items():
+            kind, words = KINDS[name]
+            if not isinstance(value, kind) or isinstance(value, bool):
+                raise SettingError(f"{name} must be {words}, but is {brief(value)}")
 
     def given(self, names=None) -> dict:
         """Those that were said, of all or of some, by name."""
@@ -97,7 +117,7 @@ def section_of(path: Path, amplitude: np.ndarray, choices: Choices, **found) -> 
     DataError
         If the amplitudes are none.
     SectionError, SettingError
-        If the spacing or the units do not make a section.
+        If the spacing or the units do not make a section; the message names the file.
     """
     checked_amplitude(path, amplitude)
     said = choices.given(("x_unit", "z_unit", "velocity", "name", "credit"))
@@ -106,7 +126,10 @@ def section_of(path: Path, amplitude: np.ndarray, choices: Choices, **found) -> 
         fields["z_unit"] = choices.time_or_depth(path)
     if fields["z_unit"] not in SECONDS and choices.velocity is None:
         fields.pop("velocity", None)
-    return Section(amplitude, **fields)
+    try:
+        return Section(amplitude, **fields)
+    except SectionError as error:
+        raise SectionError(f"{path}: {error}") from error
 
 
 def checked_shape(path: Path, shape: tuple[int, ...]):

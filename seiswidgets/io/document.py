@@ -3,7 +3,7 @@
 import json
 import re
 import reprlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,9 +12,11 @@ import numpy as np
 from seiswidgets.errors import DataError
 
 LARGEST_TEXT = 64 * 2**20  # bytes; a horizon of a 3-D survey, exported, is of that order
-LARGEST_JSON = 8 * 2**20  # about 200,000 points; as Python values the worst takes 25 times as much
+LARGEST_OURS = 8 * 2**20  # about 200,000 points; as Python values the worst takes 25 times as much
+MOST_POINTS = 300_000  # of an export, on one line: many horizons of many traces
 LARGEST_NUMBER = 1e12  # beyond any coordinate, and far enough from overflow to compute with
 POINT = re.compile(r"\[\n\s*([-+.\deE]+),\n\s*([-+.\deE]+)\n\s*\]")  # no text holds a line end: JSON escapes it
+LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
 REMEDY = "mend that in a text editor, or go back to an earlier copy"
 
 
@@ -46,6 +48,11 @@ def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
         raise DataError(f"{path} cannot be read: {error}; check its name and permissions") from error
 
 
+def lines(text: str) -> Iterator[str]:
+    """The lines of a text, with their ends, one after the other: as editors count them, unlike ``splitlines``."""
+    return (match[0] for match in LINE.finditer(text) if match[0])
+
+
 def read_json(path: Path) -> "Entry":
     """What a JSON file holds.
 
@@ -54,7 +61,7 @@ def read_json(path: Path) -> "Entry":
     DataError
         As for `read_text`, or if it is not JSON; NaN and Infinity are not.
     """
-    text = read_text(path, LARGEST_JSON)
+    text = read_text(path, LARGEST_OURS)
     try:
         return Entry(json.loads(text, parse_constant=_refused), path)
     except RecursionError:
@@ -130,11 +137,11 @@ class Entry:
             raise self.error("an object {...}")
         return self.value
 
-    def items(self) -> list["Entry"]:
-        """The value as a list."""
+    def items(self) -> Iterator["Entry"]:
+        """The values of a list, one after the other: millions at once would take much memory."""
         if not isinstance(self.value, list):
             raise self.error("a list [...]")
-        return [Entry(value, self.path, f"{self.place}[{number}]") for number, value in enumerate(self.value)]
+        return (Entry(value, self.path, f"{self.place}[{number}]") for number, value in enumerate(self.value))
 
     def text(self) -> str:
         """The value as text, of whole characters."""

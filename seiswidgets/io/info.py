@@ -27,6 +27,8 @@ class SectionInfo:
         Of a volume.
     header : str
         SEG-Y's textual header, decoded; lines of a stranger, to be escaped wherever they are shown.
+    reasons : tuple of str
+        Why a spacing or an origin cannot be told: positions that are missing or uneven, say.
     """
 
     path: Path
@@ -42,3 +44,4 @@ class SectionInfo:
     inlines: tuple[int, int, int] | None = None
     crosslines: tuple[int, int, int] | None = None
     header: str = ""
+    reasons: tuple[str, ...] = ()

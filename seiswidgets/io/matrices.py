@@ -1,5 +1,6 @@
 """Matrices in: NumPy's .npy and .npz, and text. Nothing in them is unpickled or evaluated."""
 
+import lzma
 import tokenize
 import warnings
 import zipfile
@@ -12,12 +13,13 @@ import numpy as np
 from numpy.lib import format as npy
 
 from seiswidgets.errors import DataError, SeiswidgetsError
-from seiswidgets.geology.section import Section
+from seiswidgets.geology.section import METRES, Section
 from seiswidgets.io.choices import OF_AXES, OF_SEGY, Choices, Progress, checked_shape, checked_size, section_of
+from seiswidgets.io.document import shortened
 from seiswidgets.io.info import SectionInfo
 
 STORED = ("dx", "dz", "x0", "z0", "x_unit", "z_unit", "velocity", "name", "credit")  # beside the amplitude, in .npz
-MOST_TEXT = 2**28  # bytes of a text file
+MOST_TEXT, MOST_ROW = 2**28, 2**24  # bytes of a text file, and characters of its first row
 DAMAGED = (  # what NumPy and Python's own readers raise
     ArithmeticError,
     EOFError,
@@ -28,10 +30,16 @@ DAMAGED = (  # what NumPy and Python's own readers raise
     TypeError,
     ValueError,
     tokenize.TokenError,
+    lzma.LZMAError,
     zipfile.BadZipFile,
     zlib.error,
 )
-NEEDED = ("extent, or dx and dz", "z_unit or velocity")
+AXES, HEIGHT = "extent, or dx and dz", "z_unit or velocity"  # what a file does not say
+ANEW = "write it anew"
+PLAIN = (
+    "write its numbers with a decimal point, parted by blanks, commas or semicolons, nan where there is none and # "
+    "before headings, as UTF-8"
+)
 DELIMITERS = (";", ",", None)  # None: blanks
 
 
@@ -46,32 +54,33 @@ def open_array(path: Path, choices: Choices, _progress: Progress | None) -> Sect
         If its axes or units are neither said nor in the file.
     """
     choices.refuse(OF_SEGY, "an array")
-    with _honest(path, "array"), path.open("rb") as file:
+    with _honest(path, ANEW), path.open("rb") as file:
         if zipfile.is_zipfile(file):
             arrays = _of_npz(path, file)
         else:
             file.seek(0)
             arrays = {"": _array(path, file, path.stat().st_size)}
-    amplitude = _the_matrix(path, arrays)
-    stored = {name: arrays[name].item() for name in STORED if name in arrays and arrays[name].ndim == 0}
+    amplitude, stored = _the_matrix(path, arrays), _stored(arrays)
     if {"dx", "dz"} <= stored.keys() and choices.extent is None:
         return section_of(path, amplitude, choices, **stored | choices.given(OF_AXES))
     return section_of(path, amplitude, choices, **stored | choices.axes(path, amplitude.shape))
 
 
-def preview_array(path: Path) -> SectionInfo:
+def preview_array(path: Path, choices: Choices) -> SectionInfo:
     """What an array's file holds, from its header; an .npz file has to be read."""
-    with _honest(path, "array"), path.open("rb") as file:
+    choices.refuse(OF_SEGY, "an array")
+    stored = {}
+    with _honest(path, ANEW), path.open("rb") as file:
         if zipfile.is_zipfile(file):
             arrays = _of_npz(path, file)
-            array = _the_matrix(path, arrays)
-            shape, dtype, whole = array.shape, array.dtype, {"dx", "dz", "z_unit"} <= arrays.keys()
+            array, stored = _the_matrix(path, arrays), _stored(arrays)
+            shape, dtype = array.shape, array.dtype
         else:
             file.seek(0)
             shape, _, dtype = _header(path, file, path.stat().st_size)
             checked_shape(path, shape)
-            whole = False
-    needed = () if whole else NEEDED
+    needed = () if {"dx", "dz"} <= stored.keys() else (AXES,)
+    needed += () if "velocity" in stored or stored.get("z_unit") in tuple(METRES) else (HEIGHT,)
     return SectionInfo(path, "array", str(dtype), path.stat().st_size, shape, needed)
 
 
@@ -91,17 +100,18 @@ def open_text(path: Path, choices: Choices, _progress: Progress | None) -> Secti
     return section_of(path, amplitude, choices, **choices.axes(path, amplitude.shape))
 
 
-def preview_text(path: Path) -> SectionInfo:
+def preview_text(path: Path, choices: Choices) -> SectionInfo:
     """What a text holds; only its first row is read as numbers."""
+    choices.refuse(OF_SEGY, "a text")
     columns = _numbers(path, rows=1).shape[-1]
-    with _honest(path, "text"), path.open(encoding="utf-8-sig") as file:
+    with _honest(path, PLAIN), path.open(encoding="utf-8-sig") as file:
         rows = sum(bool(line.partition("#")[0].strip()) for line in file)
     checked_shape(path, (rows, columns))
-    return SectionInfo(path, "text", "numbers", path.stat().st_size, (rows, columns), NEEDED)
+    return SectionInfo(path, "text", "numbers", path.stat().st_size, (rows, columns), (AXES, HEIGHT))
 
 
 @contextmanager
-def _honest(path, kind):
+def _honest(path, remedy):
     """Whatever goes wrong while a file is read says so of the file, in our words."""
     try:
         with warnings.catch_warnings():
@@ -110,18 +120,27 @@ def _honest(path, kind):
     except SeiswidgetsError:
         raise
     except DAMAGED as error:
-        raise DataError(f"{path} is a damaged {kind}, or no matrix of numbers: {error}; write it anew") from error
+        raise DataError(f"{path} is damaged, or no matrix of numbers: {shortened(str(error))}; {remedy}") from error
 
 
 def _of_npz(path, file):
-    """The arrays of an .npz file, by name."""
+    """The arrays of an .npz file, by name; beside an amplitude only what tells where it is."""
     with zipfile.ZipFile(file) as archive:
-        checked_size(path, (sum(info.file_size for info in archive.infolist()),), itemsize=1)
+        infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+        if "amplitude" in infos:
+            infos = {name: infos[name] for name in ("amplitude", *STORED) if name in infos}
+        checked_size(path, (sum(info.file_size for info in infos.values()),), itemsize=1)
         found = {}
-        for info in archive.infolist():
+        for name, info in infos.items():
             with archive.open(info) as member:
-                found[info.filename.removesuffix(".npy")] = _array(path, member, info.file_size)
+                found[name] = _array(f"{path}: {name}", member, info.file_size)
     return found
+
+
+def _stored(arrays):
+    """What an .npz file says of its section, names as text whatever they are there."""
+    found = {name: arrays[name].item() for name in STORED if name in arrays and arrays[name].ndim == 0}
+    return found | {name: str(found[name]) for name in ("name", "credit") if name in found}
 
 
 def _the_matrix(path, arrays):
@@ -130,7 +149,11 @@ def _the_matrix(path, arrays):
     array = arrays.get("amplitude", matrices[0] if len(matrices) == 1 else None)
     if array is None or array.dtype.kind not in "fiub":
         held = ", ".join(f"{name or 'one'} of shape {array.shape}" for name, array in arrays.items())
-        raise DataError(f"{path} must hold one matrix of real numbers, or one called 'amplitude', but holds {held}")
+        raise DataError(
+            f"{path} must hold one matrix of real numbers, or one called 'amplitude', but holds "
+            f"{shortened(held) or 'none'}: write it so"
+        )
+    checked_shape(path, array.shape)
     return array
 
 
@@ -149,7 +172,7 @@ def _header(path, file, size):
     shape, by_columns, dtype = read(file)
     if dtype.kind not in "fiubU":
         raise DataError(f"{path} holds {dtype}, not real numbers; nothing else is read from an array's file")
-    checked_size(path, shape, dtype.itemsize)
+    checked_size(path, shape, dtype.itemsize if dtype == np.float32 else max(dtype.itemsize, 8))  # as a section has it
     count, left = dtype.itemsize * prod(shape), size - file.tell()
     if min(shape, default=0) < 0 or count != left:
         raise DataError(
@@ -166,8 +189,10 @@ def _numbers(path, rows=None):
         raise DataError(
             f"{path} is a text of {size:,} bytes; there may be {MOST_TEXT:,}: save it by numpy.save instead"
         )
-    with _honest(path, "text"):
+    with _honest(path, PLAIN):
         with path.open(encoding="utf-8-sig") as file:
             first = next((line for line in file if line.partition("#")[0].strip()), "")
+        if len(first) > MOST_ROW:
+            raise DataError(f"{path} has a first row of {len(first):,} characters; write a row for each sample")
         delimiter = next(mark for mark in DELIMITERS if mark is None or mark in first.partition("#")[0])
         return np.loadtxt(path, delimiter=delimiter, ndmin=2, max_rows=rows, encoding="utf-8-sig")

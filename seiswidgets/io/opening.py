@@ -2,15 +2,16 @@
 
 from collections.abc import Mapping
 from os import PathLike
-from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.choices import Choices, Progress, tell
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.matrices import open_array, open_text, preview_array, preview_text
+from seiswidgets.io.paths import existing_file
 from seiswidgets.io.pictures import open_picture, preview_picture
 from seiswidgets.io.segy import open_segy, preview_segy
+from seiswidgets.io.segylayout import begins_like_segy
 
 READERS = {
     "SEG-Y": (open_segy, preview_segy),
@@ -97,7 +98,7 @@ def open_section(
     Cancelled
         If ``progress`` returned False.
     """
-    path = _existing(path)
+    path = existing_file(path)
     choices = Choices(
         dx=dx,
         dz=dz,
@@ -119,28 +120,23 @@ def open_section(
     return section
 
 
-def preview(path: str | PathLike) -> SectionInfo:
+def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = None) -> SectionInfo:
     """What a file holds and which choices it needs, without reading it all.
+
+    Parameters
+    ----------
+    path : str or Path
+    header_bytes : dict, optional
+        Of SEG-Y, as for ``open_section``.
 
     Raises
     ------
-    DataError
+    DataError, SettingError
         As for ``open_section``.
     """
-    path = _existing(path)
-    return _read(path, lambda _, preview: preview(path))
-
-
-def _existing(path):
-    try:
-        path = Path(path).expanduser()
-        if not path.is_file():
-            raise DataError(f"{path} is {'a folder' if path.is_dir() else 'not there'}; give the path of a file")
-    except (OSError, RuntimeError, ValueError) as error:  # of names that cannot be a file's, and unknown homes
-        if isinstance(error, DataError):
-            raise
-        raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {error}; correct it") from error
-    return path
+    path = existing_file(path)
+    choices = Choices(header_bytes=header_bytes)
+    return _read(path, lambda _, preview: preview(path, choices))
 
 
 def _read(path, act):
@@ -165,8 +161,16 @@ def _kind(path):
     if kind in ("SEG-Y", "text"):
         return kind
     if kind is not None:
-        raise DataError(f"{path} is called {path.suffix}, but does not begin like one; it is damaged, or misnamed")
-    return "text" if _looks_like_text(head) else "SEG-Y"
+        raise DataError(
+            f"{path} is called {path.suffix}, but does not begin like one; it is damaged, or misnamed: save it anew"
+        )
+    if begins_like_segy(head):
+        return "SEG-Y"
+    if _looks_like_text(head):
+        return "text"
+    raise DataError(
+        f"{path} is of no kind that is read here; convert it to SEG-Y, PNG, JPEG, TIFF, .npy, .npz or a text of numbers"
+    )
 
 
 def _looks_like_text(head):

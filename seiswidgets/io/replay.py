@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from seiswidgets import __version__
+from seiswidgets.errors import DataError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.io.reports import report_as_dict
 from seiswidgets.io.results import save_section
 from seiswidgets.io.session import Session, open_session
+from seiswidgets.io.sources import FILE
 from seiswidgets.io.writing import write_whole
 
 
@@ -48,18 +50,26 @@ def replayed(
     Raises
     ------
     SeiswidgetsError
-        Any of ours.
+        Any of ours; a DataError too where a result would replace the session's section.
     """
     session = open_session(path, allow_outside=allow_outside)
+    endings = "-restored.npz", "-report.txt", "-report.json"  # which keep off the session
+    section, text, report = files = tuple(folder / f"{name}{ending}" for ending in endings)
+    _keep_off(session.source, files)
     steps = sum(step.on for step in session.plan.steps)
     counted = None if progress is None else _counted(progress, steps)
     restored = session.restore(counted, allow_changed=allow_changed)
-    endings = "-restored.npz", "-report.txt", "-report.json"  # which keep off the session and its section
-    section, text, report = files = tuple(folder / f"{name}{ending}" for ending in endings)
     save_section(restored, section)
     write_whole(text, _text(path, session, restored).encode(errors="backslashreplace"))
     write_whole(report, _json(path, session, restored).encode())
     return Replay(session, restored, files)
+
+
+def _keep_off(source, files):
+    """Refuse to write a result over the section that it is made from."""
+    for file in files:
+        if source.kind == FILE and file.exists() and file.samefile(source.name):
+            raise DataError(f"{file} is the section that the session is of; choose another folder for the results")
 
 
 def output_names(paths: Sequence[Path]) -> list[str]:

@@ -11,6 +11,7 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io.choices import Choices
 from seiswidgets.io.matrices import STORED
+from seiswidgets.io.paths import existing_file
 from seiswidgets.io.segywriting import write_segy
 from seiswidgets.io.writing import checked_path, written
 
@@ -48,7 +49,7 @@ def save_section(
     Raises
     ------
     SettingError
-        If the path ends otherwise, or SEG-Y cannot hold the section's spacing.
+        If the path ends otherwise, or SEG-Y cannot hold the section.
     DataError
         If the file cannot be written, or ``like`` cannot be read.
     """
@@ -63,7 +64,7 @@ def save_section(
             raise SettingError(f"{path} becomes an .npz file, which has no headers; leave like= and its line out")
         write_npz(section, path)
     else:
-        write_segy(section, path, done, None if like is None else Path(like).expanduser(), line)
+        write_segy(section, path, done, None if like is None else existing_file(like), line)
 
 
 def write_npz(section: Section, path: Path):

@@ -11,7 +11,7 @@ from seiswidgets.io.choices import Choices, Progress, checked_size, section_of, 
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.optional import required
 from seiswidgets.io.segylayout import layout
-from seiswidgets.io.segyline import TraceHeaders, checked_bytes, line, spacing, volume
+from seiswidgets.io.segyline import TraceHeaders, checked_bytes, course, first_line, line, lines_of_volume, spacing
 
 BLOCK = 256  # traces between two reports of progress
 PREVIEWED = 10_000  # traces that a preview looks at, for their spacing
@@ -70,16 +70,16 @@ def _axes(headers, traces, choices, scale):
 def _interval(headers, traces):
     """Between samples, in milliseconds or metres, as the headers say in thousandths of it."""
     path, general = headers.layout.path, headers.layout.interval
-    own = headers(117, traces) & 0xFFFF  # the standard has it signed, programs do not
-    said = {int(value) for value in (general, *np.unique(own)) if value}
-    if len(said) != 1:
-        several = f"speaks of several sample intervals ({', '.join(map(str, sorted(said)[:5]))})"
+    own = np.unique(headers(117, traces) & 0xFFFF)  # the standard has it signed, programs do not
+    said = [value for value in (general, *own.tolist()) if value]
+    if not said or np.ptp(said) >= 1:  # those of the traces are whole numbers, even where the general one is not
+        several = f"speaks of several sample intervals ({', '.join(f'{value:g}' for value in sorted(said)[:5])})"
         what = several if said else "says no sample interval"
         raise DataError(
             f"{path} {what} (bytes 3217-3218 of the file, 117-118 of the trace headers); say the distance "
             "between samples, in the unit of z: dz="
         )
-    return said.pop() / 1000
+    return said[0] / 1000
 
 
 def _delay(headers, traces):
@@ -107,12 +107,32 @@ def _samples(headers, traces, progress):
     return amplitude
 
 
-def preview_segy(path: Path) -> SectionInfo:
+def line_on_map(path: Path, **line_choices) -> np.ndarray:
+    """Map coordinates that the line of a SEG-Y file runs through, from its first trace on; shape (m, 2).
+
+    Parameters
+    ----------
+    path : Path
+    **line_choices
+        The line, as for ``open_section``: inline, crossline, traces, header_bytes.
+
+    Raises
+    ------
+    DataError, SettingError
+        If there is no such line, or its positions are missing, uneven or angles.
+    """
+    choices = Choices(**line_choices)
+    with trace_headers(path, choices) as headers:
+        return course(headers, line(headers, choices, None))
+
+
+def preview_segy(path: Path, choices: Choices) -> SectionInfo:
     """What a SEG-Y file holds; reads its headers alone, and of a volume only some."""
-    with trace_headers(path, Choices()) as headers:
-        found, grid = headers.layout, volume(headers)
-        first = np.arange(min(PREVIEWED, found.traces if grid is None else len(grid.numbers[grid.fast])))
-        dx, dz, z0 = (_or_none(measure, headers, first) for measure in (spacing, _interval, _delay))
+    with trace_headers(path, choices) as headers:
+        found, lines = headers.layout, lines_of_volume(headers)
+        first = np.arange(min(PREVIEWED, first_line(headers)[2] if lines else found.traces))
+        measured = [_measured(measure, headers, first) for measure in (spacing, _interval, _delay)]
+    (dx, dz, z0), reasons = zip(*measured, strict=True)
     return SectionInfo(
         path=path,
         kind="SEG-Y",
@@ -120,7 +140,7 @@ def preview_segy(path: Path) -> SectionInfo:
         size=path.stat().st_size,
         shape=(found.samples, found.traces),
         needed=(
-            *(["inline, crossline or traces"] if grid else []),
+            *(["inline, crossline or traces"] if lines else []),
             *(name for name, value in (("dx", dx), ("dz", dz), ("z0", z0)) if value is None),
             "z_unit or velocity",
         ),
@@ -128,14 +148,16 @@ def preview_segy(path: Path) -> SectionInfo:
         dz=dz,
         z0=z0,
         x_unit=None if dx is None else "ft" if found.feet else "m",
-        inlines=grid and grid.range("inline"),
-        crosslines=grid and grid.range("crossline"),
+        inlines=lines.get("inline"),
+        crosslines=lines.get("crossline"),
         header=found.text,
+        reasons=tuple(filter(None, reasons)),
     )
 
 
-def _or_none(measure, headers, traces):
+def _measured(measure, headers, traces):
+    """A number and no reason, or none and the reason."""
     try:
-        return measure(headers, traces)
-    except DataError:
-        return None
+        return measure(headers, traces), ""
+    except DataError as error:
+        return None, str(error)

@@ -14,8 +14,10 @@ from seiswidgets.io.optional import required
 from seiswidgets.io.segylayout import Layout
 
 BYTES = {"inline": 189, "crossline": 193, "x": 181, "y": 185, "scalar": 71}  # as revision 1 of the standard has them
-OTHERS = ((73, 77), (81, 85))  # source and receiver: where old lines have their positions
+OTHER = {"inline": "crossline", "crossline": "inline"}
+PLACES = ((181, 185), (73, 77), (81, 85))  # of the midpoint; source and receiver, where old lines have their positions
 WINDOW = 65_536  # headers read at a time
+COUNTED = 1_000_000  # headers that are looked at to tell which lines a volume holds that is no full grid
 EVEN = 0.05  # of the spacing: what a step may differ from it, beside the rounding of the positions
 STRAIGHT = 0.01  # of its length: by how much a line may be longer than the way from end to end
 
@@ -94,19 +96,44 @@ class Volume:
 
 def volume(headers: TraceHeaders) -> Volume | None:
     """The grid of lines that a file is, told from a few of its headers; None if it is none, or not a full one."""
-    count = headers.layout.traces
-    same = [name for name in ("inline", "crossline") if np.ptp(headers(name, slice(0, 2))) == 0]
-    if len(same) != 1:
-        return None
-    slow, fast = same[0], "crossline" if same[0] == "inline" else "inline"
-    length = _length_of_first_line(headers, slow)
+    count, (slow, fast, length) = headers.layout.traces, first_line(headers)
     if length == count or count % length:
         return None
     numbers = {slow: headers(slow, slice(0, None, length)), fast: headers(fast, slice(0, length))}
+    if not np.array_equal(headers(fast, slice(length, 2 * length)), numbers[fast]):
+        return None
     steps = [np.diff(line) for line in numbers.values()]
     if not all((step > 0).all() or (step < 0).all() for step in steps):
         return None
     return Volume(slow, fast, numbers)
+
+
+def lines_of_volume(headers: TraceHeaders) -> dict[str, tuple[int, int, int]]:
+    """First, last and count of a volume's inlines and crosslines; empty of a file that is one line.
+
+    Of a volume that is no full grid they are the lowest, the highest and the count among its first million traces.
+    """
+    grid = volume(headers)
+    if grid is not None:
+        return {name: grid.range(name) for name in OTHER}
+    count, (_, fast, length) = headers.layout.traces, first_line(headers)
+    if length == count:
+        return {}
+    first, last, following = headers(fast, np.array([0, length - 1, length]))
+    if np.sign(last - first) == np.sign(following - last):  # it goes on, as a line does that crosses a grid
+        return {}
+    found = {name: np.unique(headers(name, slice(0, COUNTED))) for name in OTHER}
+    return {name: (int(numbers[0]), int(numbers[-1]), len(numbers)) for name, numbers in found.items()}
+
+
+def first_line(headers: TraceHeaders) -> tuple[str, str, int]:
+    """Which number stays the same along the file's first line, which changes, and how many traces that line has."""
+    count = headers.layout.traces
+    same = [name for name in ("inline", "crossline") if np.ptp(headers(name, slice(0, 2))) == 0]
+    if len(same) != 1:
+        return "inline", "crossline", count
+    slow, fast = same[0], OTHER[same[0]]
+    return slow, fast, _length_of_first_line(headers, slow)
 
 
 def _length_of_first_line(headers, slow):
@@ -120,7 +147,7 @@ def _length_of_first_line(headers, slow):
 
 
 def line(headers: TraceHeaders, choices: Choices, progress: Progress | None) -> np.ndarray:
-    """Indices of the traces that the user chose, in the file's order; shape (n,).
+    """Indices of the traces that the user chose, shape (n,); those of an inline or a crossline one beside the other.
 
     Raises
     ------
@@ -133,12 +160,11 @@ def line(headers: TraceHeaders, choices: Choices, progress: Progress | None) -> 
         raise SettingError(f"choose one of inline=, crossline= and traces=, not {' and '.join(chosen)}")
     if "traces" in chosen:
         return _part(layout, choices.traces)
-    grid = volume(headers)
     if chosen:
         ((name, number),) = chosen.items()
-        return _numbered(headers, grid, name, number, progress)
-    if grid is not None:
-        (a, b, m), (c, d, n) = grid.range("inline"), grid.range("crossline")
+        return _numbered(headers, volume(headers), name, number, progress)
+    if lines := lines_of_volume(headers):
+        (a, b, m), (c, d, n) = lines["inline"], lines["crossline"]
         raise SettingError(
             f"{layout.path} is a volume of {m} inlines ({a} to {b}) and {n} crosslines ({c} to {d}); "
             "choose a section of it by inline=, crossline= or traces="
@@ -148,15 +174,15 @@ def line(headers: TraceHeaders, choices: Choices, progress: Progress | None) -> 
 
 def _part(layout, traces):
     try:
-        found = np.arange(layout.traces)[traces] if isinstance(traces, slice) else np.array(traces, int)
-    except (TypeError, ValueError):
-        found = np.empty(0, int)
-    if found.ndim != 1 or len(found) < 2 or found.min() < 0 or found.max() >= layout.traces:
+        part = range(layout.traces)[traces] if isinstance(traces, slice) else traces
+    except (TypeError, ValueError):  # of a slice of anything but whole numbers, or in steps of 0
+        part = range(0)
+    if len(part[:2]) < 2 or min(part[0], part[-1]) < 0 or max(part[0], part[-1]) >= layout.traces:
         raise SettingError(
             f"traces= must be a slice or a range of two traces or more, counted from 0, of the {layout.traces} in "
             f"{layout.path}, but is {traces!r}"
         )
-    return found
+    return np.array(part)
 
 
 def _numbered(headers, grid, name, number, progress):
@@ -171,7 +197,10 @@ def _numbered(headers, grid, name, number, progress):
             f"{headers.layout.path} has {len(found)} traces of {name} {number!r} (byte {headers.bytes[name]} of the "
             f"trace header); {_numbers_there(headers, name)}. If they stand at other bytes, give header_bytes="
         )
-    return found
+    along = headers(OTHER[name], found)
+    steps = np.diff(along)
+    in_order = (steps >= 0).all() or (steps <= 0).all()
+    return found if in_order else found[np.argsort(along, kind="stable")]
 
 
 def _searched(headers, name, number, progress):
@@ -188,16 +217,20 @@ def _numbers_there(headers, name):
 
 
 def spacing(headers: TraceHeaders, traces: np.ndarray) -> float:
-    """Distance between the traces of a line, from their positions, in their own unit.
+    """Distance between the traces of a line, from their positions, in their own unit; errors as for ``course``."""
+    return float(np.hypot(*np.diff(course(headers, traces), axis=0).T).sum()) / (len(traces) - 1)
 
-    A straight line is measured from end to end, since rounded positions make the way along them longer.
+
+def course(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
+    """Where a line runs on the map, in its own unit: through the positions of its traces, shape (m, 2).
+
+    A straight line is given by its ends, since rounded positions make the way along them longer.
 
     Raises
     ------
     DataError
         If positions are missing, are angles, or are not evenly spaced.
     """
-    path = headers.layout.path
     _refuse_angles(headers, traces)
     x, y, rounding = _positions(headers, traces)
     steps = np.hypot(np.diff(x), np.diff(y))
@@ -206,15 +239,19 @@ def spacing(headers: TraceHeaders, traces: np.ndarray) -> float:
     typical = float(np.median(steps))
     off = np.abs(steps - typical)
     if off.max() > EVEN * typical + 1.5 * rounding:  # both ends are rounded, in x and in y
-        bad = int(np.argmax(off))
-        raise DataError(
-            f"{path} has unevenly spaced traces: most are {typical:g} apart, but traces {traces[bad]} and "
-            f"{traces[bad + 1]} (counted from 0) {steps[bad]:g}. Choose another part, or a line of a volume "
-            "(inline=, crossline=, traces=), or say how far apart they shall count: dx="
-        )
-    chord = float(np.hypot(x[-1] - x[0], y[-1] - y[0]))
-    length = chord if steps.sum() <= (1 + STRAIGHT) * chord else float(steps.sum())
-    return length / len(steps)
+        raise DataError(_uneven(headers, traces, steps, int(np.argmax(off))))
+    chord = np.hypot(x[-1] - x[0], y[-1] - y[0])
+    places = np.column_stack([x, y])
+    return places[[0, -1]] if steps.sum() <= (1 + STRAIGHT) * chord else places
+
+
+def _uneven(headers, traces, steps, worst):
+    same = "" if steps.all() else "; some stand at the same place, as those of a gather before it is stacked do"
+    return (
+        f"{headers.layout.path} has unevenly spaced traces: most are {np.median(steps):g} apart, but traces "
+        f"{traces[worst]} and {traces[worst + 1]} (counted from 0) {steps[worst]:g}{same}. Choose another part, or a "
+        "line of a volume (inline=, crossline=, traces=), or say how far apart they shall count: dx="
+    )
 
 
 def _positions(headers, traces):
@@ -236,7 +273,7 @@ def _refuse_angles(headers, traces):
 def _missing(headers, traces):
     x, y = headers.bytes["x"], headers.bytes["y"]
     said = f"{headers.layout.path} has no positions of its traces: bytes {x} and {y} of all headers hold the same"
-    for other_x, other_y in OTHERS:
+    for other_x, other_y in PLACES:
         if any(np.ptp(headers(byte, traces)) for byte in (other_x, other_y)):
             others = f'header_bytes={{"x": {other_x}, "y": {other_y}}}'
             return f"{said}. Others stand at bytes {other_x} and {other_y}: give {others}, or the distance dx="

@@ -16,8 +16,9 @@ from seiswidgets.io.writing import written
 
 THOUSANDTHS = {"ms": 1000, "s": 1_000_000, "m": 1000, "km": 1_000_000, "ft": 1000}  # of a millisecond, metre or foot
 LIVE, DEAD = 1, 2
+CARRIED = {*range(3201, 3217), *range(3227, 3261)}  # of the binary header: what is not of this file's own form
 NUMBERS = (1, 5, 21)  # of the trace in its line and in the file, and of its common depth point
-MOST = 2**31 - 1
+MOST, MOST_SAMPLES = 2**31 - 1, 2**16 - 1
 
 
 def write_segy(section: Section, path: Path, done: Restoration | None, like: Path | None, choices: Choices):
@@ -26,30 +27,51 @@ def write_segy(section: Section, path: Path, done: Restoration | None, like: Pat
     Raises
     ------
     SettingError
-        If SEG-Y cannot hold the section's spacing.
+        If SEG-Y cannot hold the section's size, spacing or amplitudes, or its line goes on to numbers too large.
     DataError
         If the file cannot be written, or ``like`` cannot be read.
     """
     segyio = required("segyio", f"to write {path}")
+    _check_samples(section, path)
     vertical = _vertical(section, path)
     if like is None:
-        text, headers = [""] * 40, _own_headers(section, path)
+        text, general, headers = [""] * 40, {3255: 2 if section.x_unit == "ft" else 1}, _own_headers(section, path)
     else:
         with trace_headers(like, choices) as original:
             text = original.layout.text.split("\n")
+            general = {int(byte): value for byte, value in original.file.bin.items() if byte in CARRIED}
             headers = _carried_headers(section, original, line(original, choices, None), choices.x0)
     spec = segyio.spec()
     spec.samples, spec.tracecount, spec.format = np.arange(section.shape[0]), section.shape[1], 5
     with written(path) as draft, segyio.create(draft, spec) as file:
         file.text[0] = _textual_header(text, section, done)
-        file.bin = {3217: vertical[117], 3219: vertical[117], 3255: 2 if section.x_unit == "ft" else 1, 3501: 256}
+        file.bin = general | {3217: vertical[117], 3219: vertical[117], 3501: 256}
         for number, (trace, header) in enumerate(zip(section.amplitude.T, headers, strict=True)):
-            file.header[number] = header | vertical | {115: section.shape[0], 29: LIVE if _live(trace) else DEAD}
+            _put_header(file, number, header | vertical | {115: section.shape[0], 29: _state(trace)}, path)
             file.trace[number] = np.nan_to_num(np.ascontiguousarray(trace, np.float32))
 
 
-def _live(trace):
-    return not np.isnan(trace).all()
+def _put_header(file, number, header, path):
+    try:
+        file.header[number] = header
+    except OverflowError as error:
+        raise SettingError(
+            f"{path}: the numbers or positions of the line, carried on beyond its ends, are too large for SEG-Y; leave "
+            "like= out"
+        ) from error
+
+
+def _state(trace):
+    return DEAD if np.isnan(trace).all() else LIVE
+
+
+def _check_samples(section, path):
+    largest = np.nanmax(np.abs(section.amplitude))
+    if section.shape[0] > MOST_SAMPLES or largest > np.finfo(np.float32).max:
+        raise SettingError(
+            f"{path}: SEG-Y holds {MOST_SAMPLES:,} samples a trace, of up to 3.4e38, but this section has "
+            f"{section.shape[0]:,}, of up to {largest:.3g}; save it as .npz"
+        )
 
 
 def _vertical(section, path):

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, PickError
@@ -12,7 +11,8 @@ from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io import sessionfile
-from seiswidgets.io.document import LARGEST_JSON, check_size
+from seiswidgets.io.document import LARGEST_OURS, check_size
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.savedpicks import SavedPick, saved
 from seiswidgets.io.sources import SectionSource, section_sha256
 from seiswidgets.io.writing import write_whole
@@ -109,12 +109,12 @@ class Session:
         DataError
             If it cannot be written, or is too large to be read again.
         """
-        path = Path(path)
+        path = user_path(path)
         try:
-            content = sessionfile.text(self, path.parent).encode()
+            content = sessionfile.text(self, path).encode()
         except (TypeError, ValueError) as error:
             raise DataError(f"{path} cannot hold this session: {error}; correct its numbers") from error
-        check_size(path, content, LARGEST_JSON)
+        check_size(path, content, LARGEST_OURS)
         write_whole(path, content)
 
     @property
@@ -191,4 +191,4 @@ def open_session(path: str | os.PathLike, *, allow_outside: bool = False) -> Ses
         If the file is damaged, comes from a newer version of seiswidgets, or leads out of its folder; the message names
         the file, the place in it, and what to do.
     """
-    return Session(**sessionfile.read(Path(path), allow_outside))
+    return Session(**sessionfile.read(user_path(path), allow_outside))

@@ -1,5 +1,6 @@
 """The file of a session: its form, and how older forms become today's. `docs/formats.md` describes it."""
 
+import os
 import re
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -34,11 +35,11 @@ def _from_version_0(old: dict) -> dict:
 MIGRATIONS = {0: _from_version_0}  # from each old version to the next
 
 
-def text(session, folder: Path) -> str:
-    """A session as it is written into a file in a folder."""
+def text(session, path: Path) -> str:
+    """A session as it is written into a file of that path."""
     source = session.source
     where = (
-        {"path": relative(folder, source.name), "choices": dict(source.choices)}
+        {"path": relative(_folder(path), source.name), "choices": dict(source.choices)}
         if source.kind == FILE
         else {"name": source.name, "arguments": dict(source.choices)}
     )
@@ -56,6 +57,11 @@ def text(session, folder: Path) -> str:
             "plan": asdict(session.plan),
         }
     )
+
+
+def _folder(path):
+    """The folder that a session's file is in, also where the path is a link to it."""
+    return Path(os.path.realpath(path)).parent
 
 
 def _looks(pick):
@@ -115,7 +121,7 @@ def _source(entry, allow_outside):
         choices = entry.optional("arguments", _choices, {})
         return _made(entry, SectionSource, kind, entry["name"].text(), choices)
     path = entry["path"]
-    name = _made(path, resolved, path.path.parent, path.text(), allow_outside)
+    name = _made(path, resolved, _folder(path.path), path.text(), allow_outside)
     return _made(entry, SectionSource, FILE, str(name), entry.optional("choices", _choices, {}))
 
 

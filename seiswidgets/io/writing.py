@@ -7,6 +7,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
+from seiswidgets.io.paths import user_path
 
 
 def checked_path(path, suffixes: tuple[str, ...]) -> Path:
@@ -16,8 +17,10 @@ def checked_path(path, suffixes: tuple[str, ...]) -> Path:
     ------
     SettingError
         If it ends otherwise.
+    DataError
+        If it cannot be a path.
     """
-    path = Path(path).expanduser()
+    path = user_path(path)
     if path.suffix.lower() not in suffixes:
         raise SettingError(f"{path} must end in {' or '.join(suffixes)}, which says what kind of file it becomes")
     return path
@@ -27,18 +30,21 @@ def checked_path(path, suffixes: tuple[str, ...]) -> Path:
 def written(path: Path):
     """A place to write a file's content to; what stood at the path is replaced only when all of it is on the disk.
 
+    Where the path is a link, the file that it leads to is replaced.
+
     Raises
     ------
     DataError
         If the folder is missing, cannot be written to, or is full.
     """
     try:
-        folder = Path(mkdtemp(prefix=".", suffix=".part", dir=path.parent))
-        draft = folder / path.name
+        target = Path(os.path.realpath(path))
+        folder = Path(mkdtemp(prefix=".", suffix=".part", dir=target.parent))
+        draft = folder / target.name
         try:
             yield draft
             _settle(draft)
-            os.replace(draft, path)
+            os.replace(draft, target)
         finally:
             draft.unlink(missing_ok=True)
             folder.rmdir()
@@ -51,7 +57,7 @@ def written(path: Path):
             "What stood there is unchanged"
         ) from error
     with contextlib.suppress(OSError):
-        _settle(path.parent)  # lets the move itself survive a power cut, where the system can do that
+        _settle(target.parent)  # lets the move itself survive a power cut, where the system can do that
 
 
 def write_whole(path: Path, content: bytes) -> None:
@@ -62,7 +68,7 @@ def write_whole(path: Path, content: bytes) -> None:
 
 def _settle(path):
     """Wait until a file or folder is on the disk."""
-    handle = os.open(path, os.O_RDONLY)
+    handle = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)  # Windows settles no file that is only read
     try:
         os.fsync(handle)
     finally:

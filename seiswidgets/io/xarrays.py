@@ -58,12 +58,13 @@ def from_xarray(array: "xarray.DataArray", **fields) -> Section:
     known = ("x_unit", "z_unit", *OF_SECTION)
     if unknown := set(fields) - set(known):
         raise SettingError(f"from_xarray takes {', '.join(known)}, but not {', '.join(sorted(unknown))}")
-    if len(getattr(array, "dims", ())) != 2:
+    if not isinstance(array, required("xarray", "to read an xarray.DataArray").DataArray) or array.ndim != 2:
         raise SectionError(f"a section is made from an xarray.DataArray of 2 dimensions, not from {_short(array)}")
     if array.dims[1] == "z" or array.dims[0] == "x":
         array = array.transpose(*array.dims[::-1])
     z, x = array.dims
     found = {name: array.attrs[name] for name in OF_SECTION if name in array.attrs}
+    found |= {name: str(found[name]) for name in ("name", "credit") if name in found}
     for letter, dimension in zip("zx", array.dims, strict=True):
         found |= _axis(array, letter, dimension)
     if not {"x_unit", "z_unit"} <= {**found, **fields}.keys():
@@ -75,22 +76,26 @@ def from_xarray(array: "xarray.DataArray", **fields) -> Section:
 
 
 def _short(array):
-    shape = getattr(array, "dims", None)
-    return f"one of dimensions {shape}" if shape else f"a {type(array).__name__}"
+    return f"a {type(array).__name__} of dimensions {tuple(getattr(array, 'dims', ()))}"
 
 
 def _axis(array, letter, dimension):
     """Origin, spacing and unit along one dimension, as fields of a section."""
     if dimension not in array.coords:
         raise SectionError(f"the array has no coordinate {dimension!r}; give it one, with the places along it")
-    try:
-        places = np.asarray(array.coords[dimension].values, float)
-    except (TypeError, ValueError):
-        raise SectionError(f"the coordinate {dimension!r} must be numbers") from None
+    coordinate = array.coords[dimension]
+    if coordinate.dtype.kind not in "iuf":
+        raise SectionError(
+            f"the coordinate {dimension!r} must be numbers, but is {coordinate.dtype}; make them so, in a unit that "
+            "its attribute 'units' names"
+        )
+    if letter == "z" and coordinate.attrs.get("positive") == "up":
+        raise SectionError(f"the coordinate {dimension!r} grows upwards; turn its sign, and the array along it")
+    places = coordinate.values.astype(float)
     spacing = (places[-1] - places[0]) / max(len(places) - 1, 1)
     if not (spacing > 0 and (np.abs(places - places[0] - spacing * np.arange(len(places))) < EVEN * spacing).all()):
         raise SectionError(f"the coordinate {dimension!r} must rise in even steps; sort it, and resample the array")
-    unit = array.coords[dimension].attrs.get("units")
+    unit = coordinate.attrs.get("units")
     return {f"{letter}0": places[0], f"d{letter}": spacing} | ({f"{letter}_unit": unit} if unit else {})
 
 

@@ -72,11 +72,17 @@ def workflow(
     span: float | None = None,
     exaggeration: float | None = None,
     window: Window | None = None,
+    figure: Figure | None = None,
 ) -> Figure:
     """The whole of a restoration, as the paper's fig. 6: the section as picked, after each stage, and the deformation.
 
-    All pictures show the same window. The deformation is that of one stage, the last if left out; keywords as for
+    All pictures show the same window. The deformation is that of one stage, the last if left out; other keywords as for
     ``section`` and ``deformation``.
+
+    Parameters
+    ----------
+    figure : Figure, optional
+        An empty one to draw on, whose size is set, as for work on a thread; one of pyplot's if left out.
 
     Raises
     ------
@@ -87,7 +93,8 @@ def workflow(
     steps = [up_to(restored, count) for count in range(len(restored.stages) + 1)]
     frame = framed(restored.original, [step.section for step in steps], exaggeration, window)
     limit = amplitude_limit(restored.original, clip)
-    figure, pictures, histogram = _panels(len(steps) + 1, frame)
+    figure = plt.figure() if figure is None else figure
+    pictures, histogram = _panels(figure, len(steps) + 1, frame)
     for ax, step in zip(pictures[:-1], steps, strict=True):
         draw_section(ax, step, limit, cmap)
         frame.put_on(ax, titled(step))
@@ -100,15 +107,15 @@ def workflow(
     return figure
 
 
-def _panels(count, frame):
+def _panels(figure, count, frame):
     """Axes of so many pictures, in two columns, and of a histogram: in the cell that is left over, or below."""
     rows = -(-count // 2)
     low = count % 2 == 0
     heights = [max(1.6, 0.44 * WIDTH * frame.shape)] * rows + [1.4] * low
-    figure = plt.figure(figsize=(WIDTH, sum(heights) + 0.3 * rows + 1.2), layout="compressed")
+    figure.set(size_inches=(WIDTH, sum(heights) + 0.3 * rows + 1.2), layout_engine="compressed")
     grid = figure.add_gridspec(len(heights), 2, height_ratios=heights)
     pictures = [figure.add_subplot(grid[number // 2, number % 2]) for number in range(count)]
-    return figure, pictures, figure.add_subplot(grid[-1, :] if low else grid[-1, 1])
+    return pictures, figure.add_subplot(grid[-1, :] if low else grid[-1, 1])
 
 
 def _with_outer_labels_only(pictures):

@@ -13,7 +13,8 @@ OUTSIDE = "#f1ece1"  # where there are no data
 WIDTH = 9.0  # inches of a figure: a notebook's width
 EXAGGERATIONS = (1, 1.5, 2, 3, 4, 5, 8, 10, 15, 20, 30, 50, 100)
 TALLEST = 0.5  # height over width that the exaggeration is chosen for
-FOOTNOTE = {"fontsize": 7.5, "color": "0.35", "ha": "left"}
+AS_IT_IS = {"parse_math": False}  # names are data: a $ in one begins no formula
+FOOTNOTE = {"fontsize": 7.5, "color": "0.35", "ha": "left", **AS_IT_IS}
 
 Window = tuple[float, float, float, float]
 
@@ -55,7 +56,7 @@ class Frame:
         kind = "Two-way time" if self.section.is_time else "Depth"
         ax.set(xlim=(x_min, x_max), ylim=(z_max, z_min), aspect=self.aspect, facecolor=OUTSIDE)
         ax.set(xlabel=f"Distance ({self.section.x_unit})", ylabel=f"{kind} ({self.section.z_unit})")
-        ax.set_title(title, loc="left", fontsize="medium")
+        ax.set_title(title, loc="left", fontsize="medium", **AS_IT_IS)
 
     def footnote(self):
         """Vertical exaggeration, and whom the data are owed to."""

@@ -12,7 +12,7 @@ from seiswidgets.geology.picks import Fault, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
-from seiswidgets.plot.frame import OUTSIDE, Frame, Window, edges, framed
+from seiswidgets.plot.frame import AS_IT_IS, OUTSIDE, Frame, Window, edges, framed
 
 FAULT, HORIZON, MESH = "#d7191c", "#1565d8", "#e8a400"
 DONE = {"unfault": "unfaulting", "flatten": "flattening"}
@@ -154,7 +154,7 @@ def draw_picks(ax: Axes, restored: Restoration, interpretation: Interpretation |
         if len(points):
             where = _at_its_end(points, frame) if isinstance(pick, Fault) else _above_its_start(points)
             colour = FAULT if isinstance(pick, Fault) else HORIZON
-            look = {"color": colour, "path_effects": HALO, "fontsize": 8.5, "fontweight": "bold"}
+            look = {"color": colour, "path_effects": HALO, "fontsize": 8.5, "fontweight": "bold", **AS_IT_IS}
             ax.annotate(pick.name, textcoords="offset points", **where, **look)
 
 

@@ -1,11 +1,12 @@
 """The restoration app: draw, restore, look."""
 
 import logging
+from functools import cached_property
 from os import PathLike
 
 import numpy as np
-from ipywidgets import GridBox, Layout, Tab, VBox
-from traitlets import Any, Bool, Instance, Tuple, link, observe, validate
+from ipywidgets import GridBox, Layout, VBox
+from traitlets import Any, Bool, Instance, Tuple, dlink, link, observe, validate
 
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.picks import Interpretation
@@ -18,12 +19,14 @@ from seiswidgets.widgets.files.filepanel import FilePanel
 from seiswidgets.widgets.files.sessionbar import SessionBar
 from seiswidgets.widgets.files.turning import Turning
 from seiswidgets.widgets.names import Names
+from seiswidgets.widgets.parts import close_whole
 from seiswidgets.widgets.picking.picker import Picker
 from seiswidgets.widgets.restoring.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.restoring.frame import Frame
 from seiswidgets.widgets.restoring.histogram import DeformationHistogram
 from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
 from seiswidgets.widgets.restoring.moments import Moments
+from seiswidgets.widgets.restoring.pages import Pages
 from seiswidgets.widgets.restoring.reports import Reports
 from seiswidgets.widgets.restoring.restorer import REST, Restorer
 from seiswidgets.widgets.restoring.statusbar import StatusBar
@@ -34,7 +37,6 @@ from seiswidgets.widgets.restoring.weightsliders import WeightSliders
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
 CHANGED = "Something has changed since: press Restore."
-TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report", "File")
 SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
 
 _log = logging.getLogger(__name__)
@@ -124,12 +126,28 @@ class RestorationApp(Turning, VBox):
         """What is done, and with which choices."""
         return Plan(self.steps, self.weights, self.solving.solver, self.solving.spacing)
 
+    @cached_property
+    def sliders(self) -> WeightSliders:
+        """The tab Weights."""
+        sliders = WeightSliders()
+        link((self, "weights"), (sliders, "weights"))
+        return sliders
+
+    @cached_property
+    def step_list(self) -> StepList:
+        """The tab Steps."""
+        step_list = StepList()
+        dlink((self.panes.original, "section"), (step_list, "z_unit"), lambda section: section.z_unit)
+        link((self, "interpretation"), (step_list, "interpretation"))
+        link((self, "steps"), (step_list, "steps"))
+        return step_list
+
     @property
     def files(self) -> FilePanel:
-        """The tab File; made when it is first looked at, as a third of all controls are in it."""
-        if not self._files_page.children:
-            self._files_page.children = [FilePanel(self)]
-        return self._files_page.children[0]
+        """The tab File."""
+        if self._files is None:
+            self._files = FilePanel(self)
+        return self._files
 
     def restore(self) -> None:
         """Restore on the full mesh now, in the background; what is wrong is said below the panes."""
@@ -144,40 +162,45 @@ class RestorationApp(Turning, VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all that is under way is done, as a script may want; False if that took too long."""
-        parts = (*self._files_page.children, self.keeper, self._restorer, self._moments)
-        return all(part.wait(timeout) for part in parts)
+        parts = (self._files, self.keeper, self._restorer, self._moments)
+        return all(part.wait(timeout) for part in parts if part)
 
     def close(self) -> None:
         """Stop what is under way, save what is not saved yet, and take the app off the screen."""
+        if self.comm is None:  # closed before, or never made
+            return
         self._restorer.cancel()
         self._moments.cancel()
-        for panel in self._files_page.children:
-            panel.end()
+        if self._files:
+            self._files.end()
         try:
             self.keeper.end()
         finally:
-            super().close()
+            close_whole(self)
 
     def _make_parts(self, section, picks, height):
         self.panes = LinkedPanes(section, height=height, deformation=0.5)
         self.picker = Picker(self.panes.original, **picks)
         self.picker.attach(self.panes.restored, self.panes.sight)
         self.histogram = DeformationHistogram()
-        self.sliders = WeightSliders()
-        self.step_list = StepList(z_unit=section.z_unit)
         self.solving = SolverControls(section)
         self.timeline = Timeline()
         self.status = StatusBar(self.restore, self.cancel)
         self.reports = Reports()
+        self._files = None
         self.keeper = SessionBar(self)
 
     def _placed(self):
         """The parts in their places."""
-        display = DisplayControls(self.panes)
-        self._files_page = VBox()
-        pages = (self.picker.list, self.sliders, self.step_list, self.solving, display, self.reports, self._files_page)
-        tabs = Tab(pages, titles=TABS, layout=Layout(min_width="0"))
-        tabs.observe(lambda change: pages[change.new] is self._files_page and self.files, "selected_index")
+        tabs = Pages(
+            Picks=lambda: self.picker.list,
+            Weights=lambda: self.sliders,
+            Steps=lambda: self.step_list,
+            Solver=lambda: self.solving,
+            Display=lambda: DisplayControls(self.panes),
+            Report=lambda: self.reports,
+            File=lambda: self.files,
+        )
         below = GridBox(
             [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), tabs],
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
@@ -188,10 +211,7 @@ class RestorationApp(Turning, VBox):
     def _tie_parts(self):
         for name in ("interpretation", "fixed"):
             link((self, name), (self.picker, name))
-        link((self, "weights"), (self.sliders, "weights"))
-        link((self, "steps"), (self.step_list, "steps"))
         link((self, "live"), (self.status, "live"))
-        link((self, "interpretation"), (self.step_list, "interpretation"))
         link((self.histogram, "brush"), (self.panes, "brush"))
         self.solving.observe(self._take_change, ("spacing", "solver"))
         self.picker.observe(self._take_rest, "dragging")
@@ -247,8 +267,7 @@ class RestorationApp(Turning, VBox):
         self.picker.redraw()
         self.status.hint("")
         self._set_outdated(False)
-        ratio = frame.ratio_before.ratio.ravel() if frame.restoration.stages else []
-        self.histogram.show(ratio)
+        self.histogram.show(frame.ratio_before.ratio.ravel() if frame.restoration.stages else [])
 
     def _show_whole(self, frame, restoration):
         self.panes.show(frame)

@@ -14,6 +14,7 @@ from seiswidgets.geology.synthetic import Synthetic
 from seiswidgets.io import datasets
 from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.messages import HINT, TROUBLE
+from seiswidgets.widgets.parts import close_whole
 from seiswidgets.widgets.ties import tie
 
 WAIT = "Looking for this section; the first time it may have to be fetched."
@@ -91,7 +92,7 @@ class Gallery(VBox):
     def close(self) -> None:
         """Stop what is under way, and take all off the screen."""
         self._leave()
-        super().close()
+        close_whole(self)
 
     def _repr_mimebundle_(self, **kwargs):
         """Beside the gallery itself the app's picture, for readers without a kernel."""

@@ -78,6 +78,8 @@ def test_some_nan_amplitudes_are_fine_and_stay():
         ({"z_unit": "ms", "velocity": 0}, "velocity must be above 0 m/s"),
         ({"z_unit": "ms", "velocity": -2400}, "velocity must be above 0 m/s"),
         ({"z_unit": "ms", "velocity": np.nan}, "velocity must be a finite number"),
+        ({"name": None}, "name must be a text, but is None"),
+        ({"credit": b"us"}, "credit must be a text, but is b'us'"),
         ({"x_unit": "feet"}, "x_unit must be one of m, km, ft, but is 'feet'"),
         ({"z_unit": "hours"}, "z_unit must be one of m, km, ft, s, ms, but is 'hours'"),
     ],
@@ -257,13 +259,14 @@ def test_datum(unfaulted, datum, message):
         (FAULT, "a horizon is asked for, a seiswidgets.Horizon, but got a Fault"),
         ([HORIZON], "a horizon is asked for"),
         (sw.Horizon([(0, 400), (50, 400)], name="H2"), "'H2' is no longer than the mesh spacing of 100 m; draw more"),
+        (sw.Horizon([(0, 400), (0.1, 400)], name="H2"), "'H2' is no longer than the mesh spacing of 100 m; draw more"),
         (
             sw.Horizon([(0, 400), (50, 1001)], name="H2"),
             r"point 2 of piece 1 of horizon 'H2' lies outside.* \(50 m, 1001 m",
         ),
     ],
 )
-def test_horizons_to_flatten(unfaulted, horizon, message):
+def test_horizons_that_cannot_be_flattened(unfaulted, horizon, message):
     raises_and_changes_nothing(unfaulted, sw.PickError, message, lambda it: it.flatten(horizon))
 
 

@@ -242,6 +242,15 @@ def test_a_datum_leaves_the_mesh_as_it_is(fold):
     np.testing.assert_allclose(warm.vertices, cold.vertices, atol=1e-3)
 
 
+def test_a_piece_too_short_for_the_mesh_changes_nothing(fold):
+    case, restored = fold
+    unfaulted, horizon = replace(restored, stages=restored.stages[:1]), case.interpretation.horizons[1]
+    x, z = case.section.extent[1] / 2, case.section.extent[3] / 2
+    with_a_speck = sw.Horizon(*horizon.pieces, [(x, z), (x + 0.1, z)], name=horizon.name)
+    flattened = [unfaulted.flatten(one).stages[1].vertices for one in (horizon, with_a_speck)]
+    np.testing.assert_array_equal(*flattened)
+
+
 def test_the_mesh_is_made_anew_where_the_picks_have_changed(fold):
     case, restored = fold
     picks, start, begin = case.interpretation, restored.stages[0], replace(restored, stages=())

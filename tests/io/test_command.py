@@ -9,6 +9,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets import __main__ as command
+from seiswidgets.io import replay
 from seiswidgets.io.replay import output_names
 
 ROOT = Path(__file__).parents[2]
@@ -85,6 +86,30 @@ def test_errors_are_words_and_the_other_sessions_go_on(saved, tmp_path):
     assert third.startswith(f"{saved}: 2 steps")
     assert "Traceback" not in result.stderr
     assert len(os.listdir(tmp_path / "out")) == 3
+
+
+def test_a_fault_of_ours_does_not_keep_the_others_from_theirs(saved, tmp_path, capsys, monkeypatch):
+    def replayed(path, *arguments, **choices):
+        if path.stem == "bad":
+            raise ZeroDivisionError("by zero")
+        return replay.replayed(path, *arguments, **choices)
+
+    monkeypatch.setattr(command, "replayed", replayed)
+    assert command.main(["restore", "bad.json", str(saved), "--out", str(tmp_path / "out")]) == 1
+    told = capsys.readouterr().err
+    assert told.startswith("bad.json: ZeroDivisionError('by zero'), which is a fault of seiswidgets; please report it")
+    assert told.endswith(f"{saved}: 2 steps, in {tmp_path / 'out' / 'session-report.txt'}\n")
+
+
+def test_results_do_not_replace_the_section_that_they_are_made_from(tmp_path, capsys):
+    case = sw.synthetic.tilt()
+    sw.save_section(case.section, tmp_path / "line-restored.npz")
+    source = sw.SectionSource("file", str(tmp_path / "line-restored.npz"))
+    sw.Session.of(case.section, source, case.interpretation, None, PLAN).save(tmp_path / "line.json")
+    before = (tmp_path / "line-restored.npz").read_bytes()
+    assert command.main(["restore", str(tmp_path / "line.json"), "--out", str(tmp_path)]) == 1
+    assert "line-restored.npz is the section that the session is of; choose another folder" in capsys.readouterr().err
+    assert (tmp_path / "line-restored.npz").read_bytes() == before
 
 
 def test_picks_that_cannot_be_restored_name_the_session(saved, tmp_path, capsys):

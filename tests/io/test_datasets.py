@@ -40,7 +40,7 @@ def published(tmp_path, monkeypatch):
     (root / "owner/repository/0123/data").mkdir(parents=True)
     (root / "owner/repository/0123/data/traces.dat").write_bytes(CONTENT)
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietHandler, directory=root))
-    thread = threading.Thread(target=server.serve_forever)
+    thread = threading.Thread(target=server.serve_forever, args=(0.01,))  # seconds between two looks whether to end
     thread.start()
     yield Source("owner/repository", "0123", "data/traces.dat", SHA256, host=f"http://127.0.0.1:{server.server_port}")
     server.shutdown()

@@ -50,6 +50,43 @@ def test_an_npz_without_a_single_matrix_of_numbers(tmp_path, arrays):
         sw.open_section(npz(tmp_path / "line.npz", **arrays), **AXES)
 
 
+def test_beside_an_amplitude_only_its_place_is_read(tmp_path):
+    beside = {"dates": np.array(["2020-01-01"], "M8[D]"), "notes": np.array({"by": "us"}, object), "name": 7}
+    section = sw.open_section(npz(tmp_path / "line.npz", amplitude=MATRIX, **beside), **AXES)
+    assert section.name == "7"
+    np.testing.assert_array_equal(section.amplitude, MATRIX)
+
+
+@pytest.mark.parametrize(
+    ("stored", "needed"),
+    [
+        ({"dx": 1, "dz": 1, "z_unit": "m"}, ()),
+        ({"dx": 1, "dz": 1, "z_unit": "ms", "velocity": 2000}, ()),
+        ({"dx": 1, "dz": 1, "z_unit": "ms"}, ("z_unit or velocity",)),
+        ({"dx": 1, "z_unit": "m"}, ("extent, or dx and dz",)),
+    ],
+)
+def test_a_preview_asks_for_what_an_npz_does_not_say(tmp_path, stored, needed):
+    assert sw.preview(npz(tmp_path / "line.npz", amplitude=MATRIX, **stored)).needed == needed
+
+
+def test_an_error_in_what_is_stored_names_the_file(tmp_path):
+    path = npz(tmp_path / "line.npz", amplitude=MATRIX, dx=-1, dz=1, z_unit="m")
+    with pytest.raises(sw.SectionError, match=r"line.npz: dx must be above 0"):
+        sw.open_section(path)
+
+
+def test_a_cube_is_no_matrix_whatever_its_extent(tmp_path):
+    with pytest.raises(sw.DataError, match=r"line.npz must hold a matrix .* of shape \(1, 2, 3\)"):
+        sw.open_section(npz(tmp_path / "line.npz", amplitude=MATRIX[None]), extent=(0, 1, 0, 1), z_unit="m")
+
+
+def test_integers_are_counted_as_the_floats_that_they_become(tmp_path, monkeypatch):
+    monkeypatch.setattr("seiswidgets.io.choices.MOST_BYTES", 100)
+    with pytest.raises(sw.DataError, match=r"line.npy would make a section of 4 x 4 amplitudes"):
+        sw.open_section(npy(tmp_path / "line.npy", np.ones((4, 4), np.int8)), **AXES)
+
+
 def test_nothing_is_unpickled(tmp_path):
     class Trap:
         def __reduce__(self):
@@ -78,7 +115,7 @@ def test_a_header_that_claims_another_size_is_refused(tmp_path, shape):
 def test_a_header_that_python_cannot_parse_is_refused(tmp_path):
     path = npy(tmp_path / "line.npy", MATRIX)
     path.write_bytes(path.read_bytes().replace(b"(2, 3)", b"(2, 3("))
-    with pytest.raises(sw.DataError, match=r"line.npy is a damaged array"):
+    with pytest.raises(sw.DataError, match=r"line.npy is damaged, or no matrix"):
         sw.open_section(path, **AXES)
 
 
@@ -117,8 +154,16 @@ def test_text_is_known_without_a_suffix(tmp_path):
     ],
 )
 def test_text_that_is_no_matrix(tmp_path, content, encoding):
-    with pytest.raises(sw.DataError, match=r"line.txt (is a damaged text, or no matrix of numbers|must hold a matrix)"):
+    with pytest.raises(
+        sw.DataError, match=r"line.txt (is damaged, or no matrix of numbers: .*decimal point|must hold a matrix)"
+    ):
         sw.open_section(text(tmp_path / "line.txt", content, encoding), **AXES)
+
+
+def test_a_text_in_one_row_is_refused_before_it_is_read(tmp_path, monkeypatch):
+    monkeypatch.setattr("seiswidgets.io.matrices.MOST_ROW", 10)
+    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write a row for each sample"):
+        sw.open_section(text(tmp_path / "line.txt", "1 2 3 4 5 6\n1 2 3 4 5 6\n"), **AXES)
 
 
 def test_what_is_infinite_or_nothing_at_all_is_refused(tmp_path):

@@ -1,4 +1,3 @@
-import os
 import sys
 
 import numpy as np
@@ -6,6 +5,7 @@ import pytest
 
 import seiswidgets as sw
 from tests.io.segyfiles import segy_bytes, straight
+from tests.leftovers import nothing_left
 
 
 @pytest.mark.parametrize("act", [sw.preview, lambda path: sw.open_section(path, z_unit="m")])
@@ -17,7 +17,7 @@ from tests.io.segyfiles import segy_bytes, straight
         ("empty.npy", b"", r"empty.npy is empty"),
         ("scan.png", b"no picture", r"scan.png is called .png, but does not begin like one"),
         ("line.npz", b"no archive", r"line.npz is called .npz, but does not begin like one"),
-        ("unknown", b"\x7fELF" * 2000, r"unknown is no SEG-Y file"),
+        ("unknown", b"\x7fELF" * 2000, r"unknown is of no kind that is read here; convert it"),
     ],
 )
 def test_a_file_that_cannot_be(tmp_path, act, name, content, message):
@@ -25,6 +25,22 @@ def test_a_file_that_cannot_be(tmp_path, act, name, content, message):
         (tmp_path / name).write_bytes(content)
     with pytest.raises(sw.DataError, match=message):
         act(tmp_path / name)
+
+
+def test_a_path_may_begin_with_the_home_folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("USERPROFILE", str(tmp_path))
+    section = sw.Section(np.ones((2, 3)), 1, 1)
+    session = sw.Session.of(section, sw.SectionSource("file", str(tmp_path / "line.npz")), sw.Interpretation())
+    sw.save_section(section, "~/line.npz")
+    sw.write_picks(sw.Interpretation(), "~/picks.csv", section)
+    session.save("~/session.json")
+    assert sw.open_section("~/line.npz").shape == (2, 3)
+    assert sw.read_picks("~/picks.csv", section).faults == ()
+    assert sw.open_session("~/session.json") == session
+    for act in (sw.preview, sw.open_session, lambda path: sw.save_section(section, path)):
+        with pytest.raises(sw.DataError, match=r"'~nobody-of-this-name/line.npz' cannot be the path of a file"):
+            act("~nobody-of-this-name/line.npz")
 
 
 def test_a_path_may_be_a_string_and_the_suffix_in_capitals(tmp_path):
@@ -60,10 +76,8 @@ def test_a_missing_package_is_named(tmp_path, monkeypatch):
 def test_no_file_stays_open(tmp_path):
     (tmp_path / "line.sgy").write_bytes(segy_bytes(np.ones((2, 3)), straight(2)))
     np.savez(tmp_path / "line.npz", a=np.ones((2, 2)))
-    before = set(os.listdir("/proc/self/fd")) if os.path.exists("/proc/self/fd") else None
-    sw.open_section(tmp_path / "line.sgy", z_unit="m")
-    with pytest.raises(sw.SettingError, match="inline 5"):
-        sw.open_section(tmp_path / "line.sgy", z_unit="m", inline=5)
-    sw.open_section(tmp_path / "line.npz", z_unit="m", dx=1, dz=1)
-    if before is not None:
-        assert set(os.listdir("/proc/self/fd")) == before
+    with nothing_left():
+        sw.open_section(tmp_path / "line.sgy", z_unit="m")
+        with pytest.raises(sw.SettingError, match="inline 5"):
+            sw.open_section(tmp_path / "line.sgy", z_unit="m", inline=5)
+        sw.open_section(tmp_path / "line.npz", z_unit="m", dx=1, dz=1)

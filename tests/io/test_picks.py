@@ -229,8 +229,49 @@ def test_charisma_horizon_lies_along_an_inline_or_a_crossline(tmp_path):
         path, DEPTH, line="xline 300", along=lambda x, y, trace: 25.0 * (trace - 362), **choices
     ).horizons
     np.testing.assert_array_equal(cross.pieces[0], [(0, 500), (25, 600)])
+    far = sw.Section(DEPTH.amplitude, dx=0.01, dz=10.0, x0=5.0, x_unit="km")  # what is distance comes in metres here
+    (in_km,) = sw.read_picks(path, far, line="inline 362", along=route, **choices).horizons
+    np.testing.assert_allclose(in_km.pieces[0][:, 0], 5.0 + (horizon.pieces[0][:, 0] - 50.0) / 1000)
     with pytest.raises(DataError, match=r"row 5 lies .* beside the line given as along="):
         sw.read_picks(path, DEPTH, line="inline 363", along=route, **choices)
+
+
+@pytest.mark.parametrize(
+    "marks", ["INLINE :{} XLINE :{}", "INLINE-{} XLINE-{}", "INLINE - {} XLINE - {}", "INLINE {} XLINE {}"]
+)
+def test_charisma_marks_stand_apart_or_joined(tmp_path, marks):
+    rows = "".join(f"{marks.format(362, 300 + n)} {25 * n} 0 {500 + n}\n" for n in range(3))
+    choices = {"x_unit": "m", "z_unit": "m", "along": "x", "line": "inline 362"}
+    horizons = sw.read_picks(written(tmp_path, "Base.txt", rows), DEPTH, format="charisma-horizons", **choices)
+    rows = rows.replace("\n", " 1\n")  # the number of the stick
+    faults = sw.read_picks(written(tmp_path, "F.txt", rows), DEPTH, format="charisma-faults", **choices)
+    points = [[0, 500], [25, 501], [50, 502]]
+    assert lines_of(horizons) == ([], [("Base", [points])])
+    assert lines_of(faults) == ([("F", [points])], [])
+
+
+def test_charisma_rows_may_end_with_the_horizons_name(tmp_path):
+    path = written(tmp_path, "all.txt", CHARISMA_HORIZON.replace("0\n", "0 Base Chalk\n"))
+    choices = {"format": "charisma-horizons", "x_unit": "m", "z_unit": "m", "along": "x", "line": "inline 362"}
+    assert [horizon.name for horizon in sw.read_picks(path, DEPTH, **choices).horizons] == ["Base Chalk"]
+    written(tmp_path, "all.txt", CHARISMA_HORIZON.replace("0\n", "0 0.77\n"))
+    with pytest.raises(DataError, match="row 1 must be INLINE : number XLINE : number X Y Z, and a name or none"):
+        sw.read_picks(path, DEPTH, **choices)
+
+
+@pytest.mark.parametrize("undefined", ["9999999", "9999900.0", "1e30", "-1e30", "3.4028235e+38", "-"])
+def test_a_fault_leaves_out_points_without_depth(tmp_path, undefined):
+    path = written(tmp_path, "f.txt", CHARISMA_FAULT + f"INLINE- 370 320 1060.0 2080.0 {undefined} Main fault 2\n")
+    choices = {"format": "charisma-faults", "x_unit": "m", "z_unit": "m", "along": "x"}
+    (fault,) = sw.read_picks(path, DEPTH, line="inline 370", **choices).faults
+    np.testing.assert_array_equal(fault.points, [(1000, 500), (1030, 700)])
+
+
+def test_choices_of_exports_have_no_meaning_for_ours(tmp_path):
+    sw.write_picks(SIMPLE, tmp_path / "a.csv", TIME)
+    for choice in ({"along": "x"}, {"line": "L 1"}):
+        with pytest.raises(sw.SettingError, match="along= and line= have no meaning for csv"):
+            sw.read_picks(tmp_path / "a.csv", TIME, **choice)
 
 
 def test_charisma_faults_may_have_blanks_in_their_names(tmp_path):
@@ -276,7 +317,7 @@ def feature(kind="fault", geometry="LineString", coordinates="[[0, 0], [1, 1]]",
     ("name", "text", "match"),
     [
         ("a.csv", "", "a.csv is empty; its first row must name the columns kind, name"),
-        ("a.csv", "x,z\n1,2\n", "row 1 must name the columns .* but lacks kind, name, piece"),
+        ("a.csv", "x,z\n1,2\n", "row 1 must name the columns .* missing or doubled: kind, name, piece"),
         ("a.csv", HEADER + "fault,F,1,a,2\n", "row 2: x must be a number .* 'a'"),
         ("a.csv", HEADER + "fault,F,1,1,nan\n", "row 2: z must be a number .* 'nan'"),
         ("a.csv", HEADER + "fault,F,1,1,1e300\n", "row 2: z must be a number"),
@@ -373,11 +414,23 @@ def test_files_that_are_not_there_or_too_large_are_not_read(tmp_path):
         sw.read_picks(tmp_path / "none.csv", DEPTH)
     with pytest.raises(DataError, match="there is no file"):
         sw.read_picks(tmp_path, DEPTH, format="csv")
-    for name, size in (("a.json", 9 * 2**20), ("a.csv", 65 * 2**20)):
+    for name, size in (("a.json", 9 * 2**20), ("a.csv", 9 * 2**20)):
         path = written(tmp_path, name, "")
         os.truncate(path, size)  # sparse
         with pytest.raises(DataError, match=r"holds \d+ MiB, and picks of one section fit in"):
             sw.read_picks(path, DEPTH)
+
+
+def test_more_points_than_there_may_be_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("seiswidgets.io.picks.exports.MOST_POINTS", 2)
+    with pytest.raises(DataError, match=r"a.cps3: row 7 is one more than the 2 points that there may be on a line"):
+        sw.read_picks(written(tmp_path, "a.cps3", CPS3), DEPTH, format="cps3-faults", along="x")
+
+
+def test_rows_are_counted_as_editors_count_them(tmp_path):
+    path = written(tmp_path, "a.cps3", "# a\x0bb\x85c\u2028d\r\n\r1 2 3\n1 2 none\n")
+    with pytest.raises(DataError, match=r"a.cps3: row 4: Z must be a number"):
+        sw.read_picks(path, DEPTH, format="cps3-faults", along="x")
 
 
 def test_what_could_not_be_read_again_is_not_written(tmp_path):
@@ -407,13 +460,14 @@ def test_a_long_line_that_crosses_itself_is_refused_at_once(tmp_path):
         ("opendtect-horizons", '"' * 1_000_001),
         ("opendtect-horizons", f"# {'Z (m' * 100_000}\n1 2 3\n"),
         ("charisma-horizons", f"INLINE {':' * 300_000}\n"),
+        ("charisma-faults", f"INLINE{' ' * 300_000}x\n"),
     ],
 )
 def test_endless_rows_are_refused_at_once(tmp_path, kind, text):
     path = written(tmp_path, "a.txt", text)
     begun = time.process_time()
     with pytest.raises(DataError, match=r"a.txt: row \d"):
-        sw.read_picks(path, DEPTH, format=kind, along="x")
+        sw.read_picks(path, DEPTH, format=kind)
     assert time.process_time() - begun < 2
 
 

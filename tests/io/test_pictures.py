@@ -2,13 +2,17 @@ import zlib
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import ExifTags, Image
 
 import seiswidgets as sw
 from seiswidgets.io import pictures
 
 GREY = np.array([[0, 255, 51], [102, 153, 204]], np.uint8)
 EXTENT = (100, 300, 500, 540)
+
+
+def opened(path):
+    return sw.open_section(path, extent=EXTENT, z_unit="m")
 
 
 def saved(path, pixels, **choices):
@@ -59,6 +63,42 @@ def test_colours_become_grey_and_what_is_transparent_no_data(tmp_path):
     np.testing.assert_array_equal(section.amplitude, expected)
 
 
+@pytest.mark.parametrize("orientation", range(1, 9))
+@pytest.mark.parametrize("suffix", [".png", ".tif"])
+def test_a_picture_stands_as_its_metadata_say(tmp_path, suffix, orientation):
+    exif = Image.Exif()
+    exif[ExifTags.Base.Orientation] = orientation
+    path = tmp_path / f"scan{suffix}"
+    Image.fromarray(GREY).save(path, exif=exif, **({"compression": "tiff_lzw"} if suffix == ".tif" else {}))
+    upright = [GREY, GREY[:, ::-1], GREY[::-1, ::-1], GREY[::-1]]
+    upright += [grey.T for grey in (GREY, GREY[::-1], GREY[::-1, ::-1], GREY[:, ::-1])]
+    np.testing.assert_array_equal(opened(path).amplitude + 127.5, upright[orientation - 1])
+    assert sw.preview(path).shape == upright[orientation - 1].shape
+
+
+def test_clear_pixels_of_16_bits_leave_the_others_theirs(tmp_path):
+    deep = np.array([[0, 1, 256], [65_535, 300, 2]], np.uint16)
+    Image.fromarray(deep).save(tmp_path / "scan.png", transparency=256)
+    expected = np.where(deep == 256, np.nan, deep - 32_767.5)
+    np.testing.assert_array_equal(opened(tmp_path / "scan.png").amplitude, expected)
+
+
+def test_a_tiff_in_which_white_is_zero(tmp_path):
+    deep = np.array([[0, 1, 256], [65_535, 300, 2]], np.uint16)
+    path = tmp_path / "scan.tif"
+    Image.fromarray(deep).save(path)
+    tag = bytes.fromhex("0601 0300 01000000 01000000")  # PhotometricInterpretation: 1, black is zero
+    path.write_bytes(path.read_bytes().replace(tag, tag[:8] + bytes(4)))
+    np.testing.assert_array_equal(opened(path).amplitude, 32_767.5 - deep)
+
+
+def test_of_several_pages_the_first_is_taken(tmp_path):
+    first = Image.fromarray(GREY)
+    first.save(tmp_path / "scan.tif", save_all=True, append_images=[Image.fromarray(255 - GREY)])
+    np.testing.assert_array_equal(opened(tmp_path / "scan.tif").amplitude + 127.5, GREY)
+    assert sw.preview(tmp_path / "scan.tif").format == "TIFF, mode L, the first of 2 pages"
+
+
 def test_axes_are_asked_for(tmp_path):
     path = saved(tmp_path / "scan.png", GREY)
     with pytest.raises(sw.SettingError, match=r"scan.png does not say how long and how deep it is: give extent="):
@@ -67,6 +107,8 @@ def test_axes_are_asked_for(tmp_path):
         sw.open_section(path, extent=EXTENT)
     assert sw.preview(path).needed == ("extent", "z_unit or velocity")
     assert sw.preview(path).shape == (2, 3)
+    with pytest.raises(sw.SettingError, match="header_bytes= has no meaning for a picture"):
+        sw.preview(path, header_bytes={"x": 73})
 
 
 @pytest.mark.parametrize("extent", [(300, 100, 0, 1), (0, 1, 2), "wide", (0, np.inf, 0, 1)])

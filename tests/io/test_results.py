@@ -96,6 +96,32 @@ def test_traces_beyond_the_ends_continue_the_line(tmp_path, endian):
     assert sw.open_section(path, z_unit="m").dx == 25
 
 
+def test_numbers_that_become_too_large_beyond_the_ends_are_refused(tmp_path):
+    headers = [header | {21: 2**31 - 3 + n} for n, header in enumerate(straight(3))]
+    (tmp_path / "before.sgy").write_bytes(segy_bytes(np.ones((3, 3)), headers))
+    with pytest.raises(sw.SettingError, match=r"after.sgy: the numbers .* are too large for SEG-Y; leave like= out"):
+        sw.save_section(sw.Section(np.ones((3, 6)), 25, 4), tmp_path / "after.sgy", like=tmp_path / "before.sgy")
+    with pytest.raises(sw.DataError, match=r"none.sgy is not there"):
+        sw.save_section(sw.Section(np.ones((3, 6)), 25, 4), tmp_path / "after.sgy", like=tmp_path / "none.sgy")
+    assert os.listdir(tmp_path) == ["before.sgy"]
+
+
+def test_the_binary_header_is_carried_over(tmp_path):
+    said = {3203: 7, 3207: 31, 3211: 5, 3229: 4, 3255: 2}
+    (tmp_path / "before.sgy").write_bytes(segy_bytes(np.ones((3, 3)), straight(3), code=3, binary=said))
+    section = sw.open_section(tmp_path / "before.sgy", z_unit="ft")
+    sw.save_section(section, tmp_path / "after.sgy", like=tmp_path / "before.sgy")
+    with segyio.open(tmp_path / "after.sgy", ignore_geometry=True) as file:
+        assert [file.bin[byte] for byte in (3201, 3205, 3209, 3229, 3255, 3225)] == [7, 31, 5, 4, 2, 5]
+
+
+def test_a_link_is_followed(tmp_path):
+    (tmp_path / "line.npz").symlink_to(tmp_path / "real.npz")
+    sw.save_section(sw.Section(np.ones((3, 6)), 25, 4), tmp_path / "line.npz")
+    assert (tmp_path / "line.npz").is_symlink()
+    assert sw.open_section(tmp_path / "real.npz").shape == (3, 6)
+
+
 def test_the_headers_of_a_line_of_a_volume_are_carried_over(tmp_path):
     headers = volume_headers([10, 11, 12], [201, 203, 205])
     (tmp_path / "volume.sgy").write_bytes(segy_bytes(numbered(headers), headers))
@@ -134,12 +160,14 @@ def test_units_come_back(tmp_path, z_unit, dz, z0):
     [
         ({"dz": 1 / 3}, r"whole thousandths, but this section has 0.333333 m"),
         ({"dz": 40}, r"from 0.001 to 32.767"),
+        ({"amplitude": np.ones((70_000, 2))}, "65,535 samples a trace, of up to 3.4e38, but this section has 70,000"),
+        ({"amplitude": np.full((3, 4), 1e39)}, "65,535 samples a trace, of up to 3.4e38, .* of up to 1e\\+39"),
         ({"z0": 1e6}, r"cannot hold that the first sample is at 1e\+06 m"),
         ({"x0": 1e10}, r"cannot hold places as far out as 1e\+10 m"),
     ],
 )
 def test_what_segy_cannot_hold_is_said(tmp_path, fields, message):
-    section = sw.Section(np.ones((3, 4)), **{"dx": 25, "dz": 4} | fields)
+    section = sw.Section(**{"amplitude": np.ones((3, 4)), "dx": 25, "dz": 4} | fields)
     with pytest.raises(sw.SettingError, match=message + ".*save it as .npz"):
         sw.save_section(section, tmp_path / "line.sgy")
     assert not os.listdir(tmp_path)

@@ -1,4 +1,5 @@
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 import segyio
 
 import seiswidgets as sw
+from seiswidgets.io.segy import line_on_map
 from seiswidgets.io.segylayout import decoded
 from tests.io.segyfiles import ibm, numbered, segy_bytes, straight, volume_headers
 
@@ -92,6 +94,15 @@ def test_a_revision_2_file_counts_its_samples_elsewhere(save, tmp_path):
     np.testing.assert_array_equal(sw.open_section(tmp_path / "line.sgy", z_unit="m").amplitude, RAMP.T)
 
 
+def test_a_revision_2_file_may_say_its_interval_more_finely(save):
+    headers = [header | {117: 2500} for header in straight(3)]  # whole microseconds
+    path = save(RAMP, headers, interval=2500, binary={3501: 0x200})
+    content = bytearray(path.read_bytes())
+    content[3272:3280] = np.array(2500.5, ">f8").tobytes()
+    path.write_bytes(content)
+    assert sw.open_section(path, z_unit="m").dz == 2.5005
+
+
 def test_extended_textual_headers_are_passed_over(save, tmp_path):
     content = save(RAMP, straight(3), binary={3505: 2}).read_bytes()
     (tmp_path / "line.sgy").write_bytes(content[:3600] + bytes(6400) + content[3600:])
@@ -146,6 +157,8 @@ def test_positions_at_other_bytes_are_pointed_out(save):
     with pytest.raises(sw.DataError, match=r'no positions .* give header_bytes=.*"x": 73, "y": 77'):
         sw.open_section(path, z_unit="m")
     assert sw.open_section(path, z_unit="m", header_bytes={"x": 73, "y": 77}).dx == 25
+    with pytest.raises(sw.DataError, match=r'bytes 81 and 85 .* give header_bytes=.*"x": 73, "y": 77'):
+        sw.open_section(path, z_unit="m", header_bytes={"x": 81, "y": 85})
 
 
 def test_uneven_spacing_says_where(save):
@@ -153,6 +166,12 @@ def test_uneven_spacing_says_where(save):
     headers[3][181] += 30
     with pytest.raises(sw.DataError, match=r"most are 25 apart, but traces 2 and 3 \(counted from 0\) 55.*dx="):
         sw.open_section(save(np.ones((4, 4)), headers), z_unit="m")
+
+
+def test_traces_at_the_same_place_are_told_of(save):
+    headers = [header for header in straight(3) for _ in range(2)]
+    with pytest.raises(sw.DataError, match=r"traces 1 and 2 \(counted from 0\) 25; some stand at the same place"):
+        sw.open_section(save(np.ones((6, 4)), headers), z_unit="m")
 
 
 def test_angles_are_no_distances(save):
@@ -205,6 +224,30 @@ def test_a_volume_that_is_not_full_is_searched(save):
     np.testing.assert_allclose(sw.open_section(path, crossline=201, z_unit="m").amplitude[0], [1301, 1401])
 
 
+def test_a_volume_that_is_not_full_is_no_line(save):
+    headers = volume_headers(INLINES, CROSSLINES)
+    del headers[5]
+    path = save(numbered(headers), headers)
+    with pytest.raises(sw.SettingError, match=r"3 inlines \(10 to 12\) and 4 crosslines \(201 to 207\); choose"):
+        sw.open_section(path, z_unit="m", dx=25)
+    info = sw.preview(path)
+    assert (info.inlines, info.crosslines, info.dx) == ((10, 12, 3), (201, 207, 4), 50)
+    assert info.needed == ("inline, crossline or traces", "z_unit or velocity")
+    assert sw.open_section(path, z_unit="m", dx=25, traces=slice(None)).shape == (4, 11)
+
+
+def test_a_line_across_a_grid_is_no_volume(save):
+    headers = [{189: 10 + n // 2, 193: 200 + n, 181: 30 * n, 185: 40 * n} for n in range(6)]
+    assert sw.open_section(save(np.ones((6, 4)), headers), z_unit="m").dx == 50
+
+
+def test_a_line_of_an_unsorted_volume_comes_in_order(save):
+    headers = volume_headers(INLINES, CROSSLINES)
+    headers = [headers[place] for place in np.random.default_rng(1).permutation(12)]
+    path = save(numbered(headers), headers)
+    np.testing.assert_allclose(sw.open_section(path, inline=11, z_unit="m").amplitude[0], [1301, 1303, 1305, 1307])
+
+
 def test_a_volume_whose_lines_differ_in_length_by_turns_is_searched(save):
     rows = [(1, 3), (2, 4), (3, 2)]
     headers = [{189: i, 193: c, 181: 25 * c, 185: 50 * i} for i, length in rows for c in range(1, length + 1)]
@@ -236,10 +279,53 @@ def test_a_range_of_traces(save, traces):
     np.testing.assert_allclose(sorted(section.amplitude[0]), [1301, 1303, 1305, 1307])
 
 
-@pytest.mark.parametrize("traces", [range(4), range(-1, 2), slice(1, 2), 2, "all"])
+@pytest.mark.parametrize("traces", [range(4), range(-1, 2), range(10**12), slice(1, 2), slice(0.5)])
 def test_a_range_of_traces_that_are_not_there(save, traces):
     with pytest.raises(sw.SettingError, match="slice or a range of two traces or more, counted from 0, of the 3 in"):
         sw.open_section(save(RAMP, straight(3)), traces=traces, z_unit="m")
+
+
+@pytest.mark.parametrize(
+    "chosen", [{"inline": 11.0}, {"crossline": "201"}, {"inline": True}, {"traces": [0, 1]}, {"header_bytes": [73]}]
+)
+def test_choices_of_another_kind(save, chosen):
+    (name,) = chosen
+    with pytest.raises(sw.SettingError, match=f"{name} must be a .*, but is"):
+        sw.open_section(save(RAMP, straight(3)), z_unit="m", **chosen)
+
+
+def test_a_preview_reads_the_bytes_that_are_chosen(save):
+    headers = volume_headers(INLINES, CROSSLINES, il=9, xl=21)
+    path = save(numbered(headers, il=9, xl=21), headers)
+    assert sw.preview(path).inlines is None
+    assert sw.preview(path, header_bytes={"inline": 9, "crossline": 21}).inlines == (10, 12, 3)
+    with pytest.raises(sw.SettingError, match="no number starts"):
+        sw.preview(path, header_bytes={"x": 182})
+
+
+@pytest.mark.parametrize(
+    ("headers", "match"),
+    [
+        ([{181: x} for x in (0, 25, 50, 110)], "unevenly spaced traces: most are 25 apart"),
+        ([{73: x} for x in (0, 25, 50, 75)], "no positions of its traces.*Others stand at bytes 73 and 77"),
+        ([{181: x, 89: 2} for x in (0, 25, 50, 75)], "positions in degrees"),
+    ],
+)
+def test_a_preview_says_why_positions_are_of_no_use(save, headers, match):
+    info = sw.preview(save(np.arange(16).reshape(4, 4), headers))
+    assert info.dx is None
+    (reason,) = info.reasons
+    assert re.search(match, reason)
+
+
+def test_a_line_on_the_map_runs_through_its_traces(save):
+    headers = volume_headers(INLINES, CROSSLINES)
+    path = save(numbered(headers), headers)
+    np.testing.assert_array_equal(line_on_map(path, crossline=203), [[5075, 500], [5075, 600]])
+    bent = [(0, 0), (30, 40), (60, 80), (110, 80), (160, 80)]
+    path = save(np.arange(20).reshape(5, 4), [{181: x, 185: y} for x, y in bent])
+    np.testing.assert_array_equal(line_on_map(path), bent)
+    assert sw.open_section(path, z_unit="m").dx == 50
 
 
 @pytest.mark.parametrize(("chosen", "message"), [({"x": 182}, "byte 182 .* no number starts"), ({"cdp": 21}, "'cdp'")])
@@ -254,6 +340,7 @@ def test_header_bytes_that_are_none(save, chosen, message):
         (lambda content: content[:3000], "ends after 3000 bytes, within the 3600"),
         (lambda content: content[:-1], r"traces of 4 samples take 256 bytes each.* 2 fit, and 255 bytes are left"),
         (lambda content: content[:3600], "0 fit"),
+        (lambda content: content[: 3600 + 256], "at least 2 samples by 2 traces"),
         (lambda content: content[:3220] + b"\0\0" + content[3222:], r"no samples \(bytes 3221-3222\)"),
         (lambda content: content[:3224] + b"\0\4" + content[3226:], "bytes 3225-3226 must be .* but are 0 and 4"),
         (lambda content: content[:3504] + b"\xff\xff" + content[3506:], "unknown number of further textual headers"),
@@ -299,6 +386,13 @@ def test_progress_rises_to_one_and_can_cancel(save):
 def test_textual_headers_in_either_code(encoding):
     lines = decoded(f"{'C01 LINE 7'.ljust(80)}{'C02'.ljust(80)}".encode(encoding)).split("\n")
     assert lines == ["C01 LINE 7", "C02"]
+
+
+@pytest.mark.parametrize("first", [33, 65, 97])
+def test_every_sign_of_a_textual_header_comes_back(tmp_path, first):
+    signs = "".join(map(chr, range(first, min(first + 32, 127))))
+    sw.save_section(sw.Section(np.ones((2, 2)), 1, 1, name=signs), tmp_path / "line.sgy")
+    assert sw.preview(tmp_path / "line.sgy").header.splitlines()[1].endswith(f"SECTION: {signs}")
 
 
 def test_control_characters_of_a_textual_header_are_not_passed_on():

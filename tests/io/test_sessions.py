@@ -164,6 +164,17 @@ def test_a_section_from_a_file_is_found_where_the_folder_goes(case, tmp_path):
     assert again.source.name == str(moved / "data" / "line.npz")
 
 
+def test_a_link_to_a_session_is_the_session(case, tmp_path):
+    folder = tmp_path / "real"
+    folder.mkdir()
+    (tmp_path / "link.json").symlink_to(folder / "session.json")
+    sw.save_section(case.section, folder / "line.npz")
+    session = sw.Session.of(case.section, sw.SectionSource("file", str(folder / "line.npz")), case.interpretation)
+    session.save(tmp_path / "link.json")
+    assert json.loads((folder / "session.json").read_text())["section"]["source"]["path"] == "line.npz"
+    assert sw.open_session(tmp_path / "link.json") == sw.open_session(folder / "session.json") == session
+
+
 def test_a_section_that_differs_is_told_of(case, tmp_path):
     source = with_file(tmp_path, case.section)
     session = sw.Session.of(case.section, source, case.interpretation, case.fixed, PLAN)
@@ -211,7 +222,7 @@ def test_paths_cannot_leave_the_folder_unless_allowed(case, saved, tmp_path):
         section = sw.open_session(path, allow_outside=True).open_section()
         assert section_sha256(section) == section_sha256(case.section)
     path = changed(saved, lambda document: document["section"]["source"].update(path="a/../not-there.npz"))
-    with pytest.raises(DataError, match=r"not-there.npz is not there; give the path"):
+    with pytest.raises(DataError, match=r"not-there.npz is not there; check its name"):
         sw.open_session(path).open_section()
 
 
@@ -225,7 +236,7 @@ def test_paths_that_no_file_can_have_are_refused(saved, name):
 def test_nothing_is_unpickled(saved, tmp_path):
     np.savez(tmp_path / "evil.npz", amplitude=np.array([[{}]], dtype=object))
     path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": "evil.npz"}))
-    with pytest.raises(DataError, match=r"evil.npz holds object, not real numbers"):
+    with pytest.raises(DataError, match=r"evil.npz: amplitude holds object, not real numbers"):
         sw.open_session(path).open_section()
 
 

@@ -45,9 +45,12 @@ def test_the_samples_run_along_z_or_the_first_dimension(dims):
         (lambda array: array.drop_vars("x"), "no coordinate 'x'"),
         (lambda array: array[::-1], "'z' must rise in even steps"),
         (lambda array: array[[0, 1, 3]], "'z' must rise in even steps"),
-        (lambda array: array.assign_coords(x=[str(x) for x in range(array.shape[1])]).isel(x=[0]), "even steps"),
+        (lambda array: array.isel(x=[0]), "'x' must rise in even steps"),
         (lambda array: array.assign_coords(x=[f"at {x}" for x in range(array.shape[1])]), "'x' must be numbers"),
         (lambda array: array.assign_coords(z=array.z.values), "need an attribute 'units' each"),
+        (lambda array: array.assign_coords(x=np.arange(array.shape[1]).astype("m8[ns]")), "'x' must be numbers"),
+        (lambda array: array.assign_coords(z=array.z.assign_attrs(positive="up")), "'z' grows upwards"),
+        (lambda array: array.to_dataset(), "not from a Dataset"),
         (lambda array: array * np.inf, "infinite"),
     ],
 )

@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 
-from tests.widgets.browser import SCREENSHOTS
+from tests.widgets.browser import keep_picture
 
 EMPTY = """
 import numpy as np
@@ -151,5 +151,4 @@ class AppScreen:
 
     def shoot(self, name):
         """A screenshot, to be looked at."""
-        SCREENSHOTS.mkdir(exist_ok=True)
-        self.page.screenshot(path=SCREENSHOTS / f"{name}.png")
+        keep_picture(self.page, name)

@@ -1,6 +1,5 @@
 """Notebooks in an environment of just what binder/ lists, with the memory they take: run by `make binder-check`."""
 
-import contextlib
 import os
 import shutil
 from pathlib import Path
@@ -25,10 +24,7 @@ def binder(tmp_path):
         server.wait()
         yield server
     finally:
-        server.process.terminate()
-        with contextlib.suppress(psutil.TimeoutExpired):
-            psutil.Process(server.process.pid).wait(10)
-        server.process.kill()
+        server.end()
 
 
 def test_notebooks_open_in_what_binder_installs_and_its_memory_suffices(binder, chromium):

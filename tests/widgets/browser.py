@@ -9,11 +9,14 @@ import socket
 import subprocess
 import sys
 import time
+import urllib.error
 import urllib.request
 from pathlib import Path
 
 import nbformat
 import pytest
+
+from tests.leftovers import ended, family
 
 ROOT = Path(__file__).parents[2]
 SCREENSHOTS = ROOT / "screenshots"
@@ -72,10 +75,31 @@ class Server:
             if self.process.poll() is not None:
                 break
             with contextlib.suppress(OSError):
-                urllib.request.urlopen(f"http://127.0.0.1:{self.port}/api?token={self.token}", timeout=2)
+                self._asked("status")
                 return
             time.sleep(0.2)
         pytest.fail(f"JupyterLab did not start:\n{self.log.read_text()[-3000:]}")
+
+    def end_kernels(self):
+        """End what the pages, which are closed now, have left to run."""
+        for kernel in self._asked("kernels"):
+            with contextlib.suppress(urllib.error.HTTPError):  # Voila has ended it meanwhile
+                self._asked(f"kernels/{kernel['id']}", "DELETE")
+
+    def end(self):
+        """End it and all that it has started."""
+        if self.process.poll() is None:
+            processes = family(self.process.pid)
+            self.process.terminate()
+            ended(processes)
+            self.process.wait()
+
+    def _asked(self, path, method="GET"):
+        """What its interface answers."""
+        token = {"Authorization": f"token {self.token}"}
+        request = urllib.request.Request(f"http://127.0.0.1:{self.port}/api/{path}", method=method, headers=token)
+        with urllib.request.urlopen(request, timeout=RUN) as answer:
+            return json.loads(answer.read() or "null")
 
     def write(self, cells):
         """Write a notebook of some cells of code into the folder, and give back its name."""
@@ -147,6 +171,7 @@ class Notebook(Page):
 
     def __init__(self, lab, chromium, **options):
         super().__init__(chromium, lab.address(secrets.token_hex(4), "lab/workspaces"), **options)
+        self._folder = lab.folder
         self.page.wait_for_function("window.jupyterapp?.restored.then(() => true)")
         self.command("application:toggle-left-area")
 
@@ -187,6 +212,17 @@ class Notebook(Page):
         self.page.reload()
         self.page.wait_for_function(READY, polling=50)
 
+    @contextlib.contextmanager
+    def kernel_at_work(self):
+        """A context in which the kernel executes a cell."""
+        over = self._folder / f"over-{secrets.token_hex(4)}"
+        self.page.evaluate(BEGIN, WORK.format(str(over)))
+        self.page.wait_for_function("window.atWork")
+        yield
+        assert self.page.evaluate("window.atWork")
+        over.touch()
+        assert self.ask("True")
+
     def ask(self, code):
         """What an expression is in the kernel, by way of the notebook's own kernel connection."""
         text, error = self.page.evaluate(ASK, f"import json; print(json.dumps({code}))")
@@ -217,6 +253,18 @@ EXECUTE = """([name, given]) => {
   window.jupyterapp.commands.execute(name, given).then(() => { window.done = true; });
 }"""
 
+BEGIN = """(code) => {
+  const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+  kernel.requestExecute({ code }).onIOPub = ({ header, content }) => {
+    if (header.msg_type === "status") window.atWork = content.execution_state === "busy";
+  };
+}"""
+WORK = """
+import pathlib, time
+while not pathlib.Path({!r}).exists():
+    time.sleep(0.05)
+"""
+
 ASK = """async (code) => {
   const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
   const future = kernel.requestExecute({ code, store_history: false });
@@ -228,6 +276,12 @@ ASK = """async (code) => {
   await future.done;
   return [text, error];
 }"""
+
+
+def keep_picture(shown, name):
+    """Keep a screenshot of a page or a part of it, to be looked at."""
+    SCREENSHOTS.mkdir(exist_ok=True)
+    (SCREENSHOTS / f"{name}.png").write_bytes(shown.screenshot())  # if Playwright wrote it, a thread of it would stay
 
 
 def _free_port():

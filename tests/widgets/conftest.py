@@ -1,11 +1,11 @@
 import contextlib
 import os
 import shutil
-import subprocess
 
 import ipywidgets
 import pytest
 
+from tests.leftovers import ended, family
 from tests.widgets.appscreen import EMPTY, SHOWN, AppScreen
 from tests.widgets.bare import BareLayer
 from tests.widgets.browser import FLAGS, Notebook, Page, Server
@@ -33,7 +33,10 @@ def chromium():
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
         yield browser
+        told = browser.new_browser_cdp_session().send("SystemInfo.getProcessInfo")["processInfo"]
+        processes = family(next(one["id"] for one in told if one["type"] == "browser"))
         browser.close()
+        ended(processes)
 
 
 @pytest.fixture(scope="session")
@@ -57,11 +60,7 @@ def _running(folder):
         server.wait()
         yield server
     finally:
-        server.process.terminate()
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            server.process.wait(10)
-        if server.process.poll() is None:
-            server.process.kill()
+        server.end()
 
 
 @pytest.fixture(scope="session")
@@ -90,6 +89,7 @@ def notebook(lab, chromium, spare, request):
         else:
             one.shut()
             spare.append(one) if plain else one.close()
+    lab.end_kernels()
     assert errors == []
 
 
@@ -106,6 +106,7 @@ def elsewhere(other_server, chromium):
     yield open_page
     for one in opened:
         one.close()
+    other_server.end_kernels()
     assert [error for one in opened for error in one.errors] == []
 
 

@@ -1,8 +1,12 @@
 """Files to open, and a file that a browser would send."""
 
+import itertools
+
 import numpy as np
 
 from tests.io.segyfiles import numbered, segy_bytes, straight, volume_headers
+
+SENDERS = itertools.count(1)
 
 
 def line(path, count=30, samples=40, text=None):
@@ -19,8 +23,17 @@ def volume(path):
     return path
 
 
-def send(field, name, content, size=None):
-    """Let a browser upload a file into a field."""
-    size = len(content) if size is None else size
-    file = {"name": name, "type": "", "size": size, "content": memoryview(content), "last_modified": 0}
-    field.upload.set_state({"value": [file]})
+def send(field, name, content, size=None, piece=2**20):
+    """Let a browser upload a file into a field, piece by piece as it is asked for; give back what was asked."""
+    asked, sender = [], next(SENDERS)
+    field.upload.send = asked.append
+    message(field, "begin", sender, name=name, size=len(content) if size is None else size)
+    while asked[-1]["next"] is not None and asked[-1]["next"] < len(content):
+        start = asked[-1]["next"]
+        message(field, "piece", sender, memoryview(content[start : start + piece]), start=start)
+    return [answer["next"] for answer in asked]
+
+
+def message(field, kind, sender, *buffers, **content):
+    """What the button for uploads tells."""
+    field.upload._handle_custom_msg({"kind": kind, "id": sender, **content}, list(buffers))

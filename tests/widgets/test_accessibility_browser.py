@@ -31,6 +31,9 @@ def test_axe_finds_nothing_serious_in_the_app(notebook, dark):
         opened.page.get_by_role("tab", name=tab, exact=True).click()
         opened.page.get_by_role("tabpanel").first.wait_for()
         assert opened.page.evaluate(FINDINGS) == [], tab
+    opened.page.get_by_role("tab", name="File", exact=True).click()
+    opened.page.get_by_placeholder("section: path of").wait_for()  # it is made when it is looked at
+    assert opened.page.evaluate(FINDINGS) == []
 
 
 def test_controls_are_found_by_the_names_that_are_seen_beside_them(notebook):

@@ -1,7 +1,6 @@
 """The app in JupyterLab while it restores: what follows the mouse, what is newest, and what a new page shows."""
 
 import re
-import time
 from itertools import pairwise
 
 import numpy as np
@@ -11,30 +10,6 @@ from tests.widgets.appscreen import FEW, RESTORED
 from tests.widgets.test_histogram_browser import bar
 
 PLACES = "[(500.0, 400.0), (1500.0, 900.0), (2600.0, 1600.0), (3500.0, 700.0)]"
-SLEEP = """(code) => {
-  window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code });
-}"""
-CANCELLED = """() => {
-  const cancel = [...document.querySelectorAll("button")].find((one) => one.textContent.includes("Cancel"));
-  window.took = null;
-  cancel.addEventListener("click", () => {
-    const start = performance.now();
-    const look = () => {
-      if (cancel.offsetParent === null) window.took = performance.now() - start;
-      else requestAnimationFrame(look);
-    };
-    look();
-  });
-}"""
-STOPPING = """
-import time
-stopping = []
-def stop(_):
-    start = time.monotonic()
-    app.wait(20)
-    stopping.append(time.monotonic() - start)
-app.status._cancel.on_click(stop)
-"""
 NOTING = """
 from seiswidgets.geology.plan import Task
 asked, shown, restored, show = {}, [], Task.restored, app.panes.show
@@ -70,19 +45,16 @@ def test_cursors_follow_each_other_while_the_kernel_sleeps_and_moves_are_not_sen
         screen.page.mouse.move(box["x"] + box["width"] - 9, box["y"] + box["height"] - 9, steps=250)
     assert len(screen.opened.sent) - frames <= 30
 
-    start = time.monotonic()
-    screen.page.evaluate(SLEEP, "import time; time.sleep(5)")
     boxes = [screen.plots.nth(number).bounding_box() for number in (0, 1)]
-    for number in (0, 1):
-        other, box = 1 - number, boxes[1 - number]
-        for here, there in zip(pages[number], pages[other] - [box["x"], box["y"]], strict=True):
-            screen.page.mouse.move(*here)
-            screen.page.evaluate(
-                "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
-            )
-            assert linked_cross(screen, other) == pytest.approx(there, abs=1)
-    assert time.monotonic() - start < 5  # it was asleep all the while
-    screen.ask("1")
+    with screen.opened.kernel_at_work():
+        for number in (0, 1):
+            other, box = 1 - number, boxes[1 - number]
+            for here, there in zip(pages[number], pages[other] - [box["x"], box["y"]], strict=True):
+                screen.page.mouse.move(*here)
+                screen.page.evaluate(
+                    "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+                )
+                assert linked_cross(screen, other) == pytest.approx(there, abs=1)
 
 
 def test_a_line_drawn_in_the_restored_pane_is_where_to_original_says(open_app):
@@ -140,23 +112,17 @@ def test_a_reloaded_page_and_a_second_view_show_the_same(open_app):
     assert [screen.lines(number) for number in range(4)] == lines
 
 
-def test_cancel_takes_effect_within_300_ms(open_app):
-    screen = open_app(RESTORED, "app.wait(30)\napp.live = False\n", STOPPING)
+def test_cancel_leaves_all_as_it_was(open_app):
+    screen = open_app(RESTORED, "app.wait(30)\napp.live = False\n")
     screen.until("len(app.restoration.stages) == 2")
     screen.ask("app.solving.set_trait('spacing', app.solving._middle / 4)")
     before = screen.pictures()
     screen.ask("globals().update(whole=app.restoration)")
     screen.button("Restore").click()
-    cancel = screen.button("Cancel")
-    cancel.wait_for()
     screen.page.get_by_text(re.compile("iteration [1-9]")).first.wait_for()
-    screen.page.evaluate(CANCELLED)
-    cancel.click()
-    screen.page.wait_for_function("window.took !== null")
-    took = screen.page.evaluate("window.took")
-    screen.until("stopping")
-    print(f"Cancel: {took:.0f} ms on the screen, {1000 * screen.ask('stopping[0]'):.0f} ms more until all has stopped")
-    assert took < 300
+    screen.button("Cancel").click()
+    screen.button("Cancel").wait_for(state="hidden")
+    assert screen.ask("app.wait(20)")
     assert screen.ask("app.restoration is whole")
     assert screen.pictures() == before
 
@@ -206,7 +172,7 @@ def test_a_name_is_shown_as_text_everywhere(open_app):
     screen.tab("Report")
     screen.page.get_by_role("tabpanel").get_by_text(NAME).first.wait_for()
     screen.tab("Steps")
-    assert screen.page.locator(f"option:text-is('{NAME}')").count() > 0
+    screen.page.locator(f"option:text-is('{NAME}')").first.wait_for(state="attached")
     far = "sw.Fault([(100.0, 100.0), (150.0, 500.0)], app.interpretation.faults[0].name)"
     screen.ask(f"app.set_trait('interpretation', sw.Interpretation([{far}], app.interpretation.horizons))")
     screen.button("Restore").click()

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 import seiswidgets as sw
@@ -14,3 +15,13 @@ def test_only_a_hand_moves_the_mesh_spacing():
     controls._usual.click()
     assert controls.spacing is None
     assert slider.value == pytest.approx(middle)
+
+
+def test_the_mesh_spacing_suits_sections_of_any_size():
+    small, large = (sw.Section(np.zeros((50, 50)), spacing, spacing) for spacing in (0.1, 1000.0))
+    controls = SolverControls(small)
+    for section in (large, small):
+        controls.take(section)
+        slider, usual = controls._slider, sw.Restoration(section).ground.spacing
+        np.testing.assert_allclose([10**slider.min, slider.value, 10**slider.max], [usual / 4, usual, 4 * usual])
+        assert controls.spacing is None

@@ -5,11 +5,12 @@ import shutil
 
 import pytest
 
-from tests.widgets.browser import IGNORED, ROOT, RUN, SCREENSHOTS
+from tests.widgets.browser import IGNORED, ROOT, RUN, keep_picture
 from tests.widgets.byhand import PICTURES, draw_faulted_fold, is_painted, is_restored
 
-# What Voila's page itself takes from elsewhere, and an extension of Jupyter Notebook, where that is installed too.
-FOREIGN = re.compile("https://cdn|@jupyter-notebook/lab-extension")
+# What Voila's page itself takes from elsewhere, an extension of Jupyter Notebook, where that is installed too, and what
+# anywidget says of a widget that was closed again before the page had made it.
+FOREIGN = re.compile("https://cdn|@jupyter-notebook/lab-extension|Failed to initialize model")
 AXES_SEEN = """() => [...document.querySelectorAll(".seiswidgets-layer .label")].every((label) => {
   const { left, width, top, height } = label.getBoundingClientRect();
   label.style.pointerEvents = "auto";
@@ -31,6 +32,7 @@ def dashboard(other_server, chromium):
     page.goto(other_server.address("dashboard.ipynb", "voila/render"))
     yield page
     context.close()
+    other_server.end_kernels()
     assert [error for error in errors if not (IGNORED.search(error) or FOREIGN.search(error))] == []
 
 
@@ -45,8 +47,7 @@ def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
     draw_faulted_fold(dashboard)
     is_restored(dashboard)
     assert dashboard.evaluate(PICTURES)[1] != today[1]
-    SCREENSHOTS.mkdir(exist_ok=True)
-    dashboard.screenshot(path=SCREENSHOTS / "dashboard.png")
+    keep_picture(dashboard, "dashboard")
 
     dashboard.get_by_label("with an interpreter's picks").check()
     dashboard.get_by_label("Section", exact=True).select_option("Graben")
@@ -54,4 +55,4 @@ def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
     is_painted(dashboard)
     is_restored(dashboard)
     assert dashboard.locator("canvas.seiswidgets-plot").count() == 2
-    dashboard.screenshot(path=SCREENSHOTS / "dashboard-graben.png")
+    keep_picture(dashboard, "dashboard-graben")

@@ -1,7 +1,10 @@
+import io
 import json
 import threading
+from html import unescape
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import meshio
 import numpy as np
 import pytest
@@ -11,9 +14,10 @@ import xarray
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.widgets.app import RestorationApp
-from seiswidgets.widgets.files import sectionopener
+from seiswidgets.widgets.files import picksfiles, resultfiles, sectionopener
 from seiswidgets.widgets.files.filefield import FileField
-from tests.widgets.files import line, send, volume
+from tests.io.segyfiles import numbered, segy_bytes, volume_headers
+from tests.widgets.files import line, message, send, volume
 from tests.widgets.hands import appear, draw
 
 LONG = 60
@@ -43,10 +47,17 @@ def restored(app, case):
     return app
 
 
-def load(app, path, **fields):
-    """Open a file in the panel, some fields filled in."""
+def look(app, path):
+    """Have a file previewed in the panel."""
     opener = app.files.section
     opener.file.text.value = str(path)
+    assert opener.wait(LONG)
+    return opener
+
+
+def load(app, path, **fields):
+    """Open a file in the panel, some fields filled in."""
+    opener = look(app, path)
     for name, value in fields.items():
         opener.fields.fields[name].value = value
     opener.load()
@@ -60,13 +71,25 @@ def answer(notice, name):
 
 def test_a_line_is_previewed_and_opened(app, tmp_path):
     path = line(tmp_path / "line.sgy", text=HOSTILE.ljust(3200))
-    opener = app.files.section
-    opener.file.text.value = str(path)
+    opener = look(app, path)
     assert "30 traces of 40 samples; traces 25 m apart; samples 4 ms" in opener._preview.value
     assert "&lt;img src=x" in opener._preview.value
     assert "<img" not in opener._preview.value
     assert "two-way" not in opener.notice.text
-    assert "vertical axis, velocity (m/s)" in opener.fields._note.value
+    assert "does not say: vertical axis, velocity. Correct" in opener.fields._note.value
+    shown = {name: opener.fields.fields[name] for name in ("dx", "dz", "z0")}
+    opener.fields.fields["z_unit"].value = "s"
+    assert [field.description for field in shown.values()] == [
+        "traces apart (m)",
+        "samples apart (s)",
+        "first sample at (s)",
+    ]
+    assert [field.placeholder for field in shown.values()] == [
+        "25, as the file says",
+        "0.004, as the file says",
+        "0, as the file says",
+    ]
+    opener.fields.fields["z_unit"].value = "ms"
     load(app, path, velocity="2500")
     section = app.section
     assert (section.velocity, section.dx, section.z_unit, section.shape) == (2500.0, 25.0, "ms", (40, 30))
@@ -87,6 +110,60 @@ def test_a_line_of_a_volume_needs_its_number(app, tmp_path):
     np.testing.assert_array_equal(app.source.open().amplitude, app.section.amplitude)
     load(app, path, line="traces", number="5", z_unit="m")
     assert 'must be two numbers, as in "0 to 99"' in opener.notice.text
+    load(app, path, line="inline", number="99", z_unit="m")
+    assert "its first trace has 10 there" in opener.notice.text
+    assert "stand at other bytes, give “other header bytes”" in opener.notice.text
+
+
+def test_some_traces_of_a_line_are_opened(app, tmp_path):
+    opener = load(app, line(tmp_path / "line.sgy"), line="traces", number="10 to 19")
+    assert app.section.shape == (40, 10)
+    assert opener.fields.fields["line"].options == ("all traces", "inline", "crossline", "traces")
+
+
+def test_header_bytes_that_are_chosen_are_previewed_and_opened(app, tmp_path):
+    path, at = tmp_path / "volume.sgy", {"il": 9, "xl": 21}
+    headers = volume_headers([10, 11, 12], [1, 2, 3, 4, 5], **at)
+    path.write_bytes(segy_bytes(numbered(headers, **at), headers))
+    opener = look(app, path)
+    assert opener.header_bytes._box.layout.display == "none"
+    assert "inlines" not in opener._preview.value
+    opener.fields.fields["z_unit"].value = "m"
+    opener.header_bytes.asked.value = True
+    for name, byte in (("inline", "9"), ("crossline", "21")):
+        opener.header_bytes.fields[name].value = byte
+        assert opener.wait(LONG)
+    assert "3 inlines, 10 to 12; 5 crosslines, 1 to 5" in opener._preview.value
+    opener.load()
+    assert opener.wait(LONG)
+    assert app.section.z_unit == "m"
+    assert app.source.choices["header_bytes"] == {"inline": 9, "crossline": 21}
+    np.testing.assert_array_equal(app.section.amplitude, app.source.open().amplitude)
+    np.testing.assert_array_equal(app.section.amplitude[0], [1101.0, 1102.0, 1103.0, 1104.0, 1105.0])
+
+
+@pytest.mark.parametrize(("byte", "said"), [("182", "where no number starts"), ("x", "must be a whole number")])
+def test_header_bytes_that_are_none_are_said(app, tmp_path, byte, said):
+    opener = look(app, line(tmp_path / "line.sgy"))
+    opener.header_bytes.asked.value = True
+    opener.header_bytes.fields["x"].value = byte
+    assert opener.wait(LONG)
+    assert said in opener.notice.text
+    assert opener._open.disabled
+    opener.header_bytes.asked.value = False
+    assert opener.wait(LONG)
+    assert opener.notice.text == ""
+    assert not opener._open.disabled
+
+
+def test_positions_that_are_of_no_use_are_said_before_opening(app, tmp_path):
+    traces = np.zeros((4, 5), np.float32)
+    (tmp_path / "uneven.sgy").write_bytes(segy_bytes(traces, [{181: x} for x in (0, 25, 50, 110)]))
+    opener = look(app, tmp_path / "uneven.sgy")
+    assert "unevenly spaced traces: most are 25 apart" in opener.fields._note.value
+    assert "how far apart they shall count: “traces apart”" in opener.fields._note.value
+    (tmp_path / "old.sgy").write_bytes(segy_bytes(traces, [{73: x} for x in (0, 25, 50, 75)]))
+    assert "give “other header bytes” {" in unescape(look(app, tmp_path / "old.sgy").fields._note.value)
 
 
 def test_a_matrix_takes_the_places_of_its_corners(app, tmp_path):
@@ -95,9 +172,9 @@ def test_a_matrix_takes_the_places_of_its_corners(app, tmp_path):
     assert app.section.extent == (100.0, 500.0, 0.0, 50.0)
     assert app.section.velocity is None
     load(app, tmp_path / "matrix.npy", z_unit="m", x_min="")
-    assert "x_min must be a finite number, but is ''" in opener.notice.text
+    assert "left edge must be a finite number, but is ''" in opener.notice.text
     load(app, tmp_path / "matrix.npy", x_min="0", x_max="far")
-    assert "x_max must be a finite number, but is 'far'" in opener.notice.text
+    assert "right edge must be a finite number, but is 'far'" in opener.notice.text
     assert app.section.extent == (100.0, 500.0, 0.0, 50.0)
 
 
@@ -108,12 +185,24 @@ def test_our_own_file_needs_nothing(app, case, tmp_path):
     np.testing.assert_array_equal(app.section.amplitude, case.section.amplitude)
 
 
+def test_of_an_archive_only_what_it_lacks_is_asked_for(app, tmp_path):
+    amplitude = np.random.default_rng(0).normal(size=(11, 21))
+    np.savez(tmp_path / "axes.npz", amplitude=amplitude, dx=5.0, dz=2.0)
+    opener = load(app, tmp_path / "axes.npz", velocity="1800")
+    assert list(opener.fields.fields) == ["z_unit", "velocity", "x_unit"]
+    assert (app.section.velocity, app.section.dx) == (1800.0, 5.0)
+    np.savez(tmp_path / "units.npz", amplitude=amplitude, z_unit="m")
+    opener = load(app, tmp_path / "units.npz", x_max="40", z_max="50")
+    assert list(opener.fields.fields) == ["x_min", "x_max", "z_min", "z_max"]
+    assert "does not say: left edge, right edge, top, bottom." in opener.fields._note.value
+    assert app.section.extent == (0.0, 40.0, 0.0, 50.0)
+
+
 @pytest.mark.parametrize("content", [b"", b"\x89PNG but not really", b"some words, no numbers"])
 def test_what_cannot_be_opened_is_said_and_changes_nothing(app, case, tmp_path, content):
     path = tmp_path / f"{HOSTILE.replace('/', '')}.sgy"
     path.write_bytes(content)
-    opener = app.files.section
-    opener.file.text.value = str(path)
+    opener = look(app, path)
     assert str(path) in opener.notice.text
     assert "<img" not in opener.notice._line.value
     assert opener._open.disabled
@@ -131,17 +220,39 @@ def test_opening_can_be_cancelled(app, case, tmp_path, monkeypatch):
         return opened(path, progress=progress, **choices)
 
     monkeypatch.setattr(sectionopener, "open_section", slow)
-    opener = app.files.section
-    opener.file.text.value = str(line(tmp_path / "line.sgy"))
+    opener = look(app, line(tmp_path / "line.sgy"))
     opener.load()
     assert begun.wait(LONG)
-    assert opener._progress.layout.display == ""
-    opener._cancel.click()
+    assert opener.chore.layout.display == ""
+    assert opener._open.disabled
+    opener.chore._cancel.click()
+    assert "Stopping" in opener.notice.text
     go_on.set()
     assert opener.wait(LONG)
     assert app.section is case.section
     assert "cancelled" in opener.notice.text
-    assert opener._progress.layout.display == "none"
+    assert opener.chore.layout.display == "none"
+    assert not opener._open.disabled
+
+
+def test_another_path_takes_the_place_of_what_is_being_opened(app, case, tmp_path, monkeypatch):
+    begun, go_on, opened = threading.Event(), threading.Event(), sectionopener.open_section
+
+    def slow(path, *, progress, **choices):
+        begun.set()
+        go_on.wait(LONG)
+        return opened(path, **choices)
+
+    monkeypatch.setattr(sectionopener, "open_section", slow)
+    opener = look(app, line(tmp_path / "line.sgy"))
+    opener.load()
+    assert begun.wait(LONG)
+    opener.file.text.value = str(line(tmp_path / "other.sgy", count=20))
+    go_on.set()
+    assert opener.wait(LONG)
+    assert app.section is case.section
+    assert "20 traces" in opener._preview.value
+    assert opener.notice.text == ""
 
 
 def test_what_should_not_happen_is_said_too(app, tmp_path, monkeypatch, caplog):
@@ -200,6 +311,8 @@ def test_an_upload_is_opened_under_a_harmless_name(app, tmp_path):
     path = Path(opener.file.path)
     assert path.name == "_b__up.sgy"
     assert path.read_bytes() == content
+    assert "Uploaded: _b__up.sgy" in opener.file._sent.value
+    assert opener.wait(LONG)
     opener.load()
     assert opener.wait(LONG)
     assert app.section.shape == (40, 30)
@@ -208,52 +321,186 @@ def test_an_upload_is_opened_under_a_harmless_name(app, tmp_path):
     assert not path.parent.exists()
 
 
-def test_uploads_are_held_against_their_size(monkeypatch):
+def test_files_of_the_folder_that_is_typed_are_offered(tmp_path, monkeypatch):
+    (tmp_path / "data").mkdir()
+    for name in ("b.SGY", "<b>.png", "notes.pdf", ".hidden.sgy", "data/line.sgy"):
+        (tmp_path / name).touch()
+    monkeypatch.chdir(tmp_path)
+    field = FileField("path", ".sgy,.png")
+    assert field.text.options == ("<b>.png", "b.SGY", "data/")
+    for typed in ("data", "data/", "data/nothing.sgy"):
+        field.text.value = typed
+        assert field.text.options == ("data/line.sgy",)
+    for typed in ("nowhere/x", "~nobody-of-that-name/x", "\0/x"):
+        field.text.value = typed
+        assert field.text.options == ()
+
+
+def test_an_upload_comes_piece_by_piece_whatever_gets_lost():
     field = FileField("path")
-    send(field, "cut.sgy", b"abc", size=4)
-    assert "'cut.sgy' has 3 of 4 bytes" in field.error
-    monkeypatch.setattr("seiswidgets.widgets.files.filefield.MOST_UPLOADED", 2)
-    send(field, "long.sgy", b"abc")
-    assert "there may be 2" in field.error
-    assert field.path == ""
+    assert send(field, "line.sgy", b"abcdefgh", piece=3) == [0, 3, 6, None]
+    first = Path(field.path)
+    assert first.read_bytes() == b"abcdefgh"
+    assert field.is_uploaded
+    asked = []
+    field.upload.send = asked.append
+    message(field, "begin", "x", name="line.sgy", size=6)
+    for start in (0, 0, 3):  # the second one was sent again, though it had come
+        message(field, "piece", "x", b"123", start=start)
+    assert [answer["next"] for answer in asked] == [0, 3, 3, None]
+    assert first.read_bytes() == b"123123"
+    field.text.value = "typed.sgy"
+    assert (field.path, field.is_uploaded) == ("typed.sgy", False)
+    assert field._sent.layout.display == "none"
+    field.end()
+    assert not first.parent.exists()
+
+
+def test_an_upload_that_is_given_up_leaves_what_was_there(monkeypatch):
+    field = FileField("path")
+    send(field, "line.sgy", b"abc")
+    path = Path(field.path)
+    field.upload.send = lambda answer: None
+    message(field, "begin", "x", name="line.sgy", size=9)
+    message(field, "piece", "x", b"123", start=0)
+    message(field, "stop", "x", reason="")
+    message(field, "piece", "x", b"456", start=3)
+    assert field.error == "'line.sgy' was not uploaded"
+    assert field.path == str(path)
+    assert path.read_bytes() == b"abc"
+    assert list(path.parent.iterdir()) == [path]
+    monkeypatch.setattr("seiswidgets.widgets.files.upload.MOST", 2)
+    assert send(field, "long.sgy", b"abc") == [None]
+    assert "it has 3 bytes; there may be 2" in field.error
+    field.end()
+
+
+def test_an_upload_on_a_full_disk_is_said(monkeypatch):
+    field = FileField("path")
+
+    class Full(io.BytesIO):
+        name = "full"
+
+        def write(self, piece):
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "open", lambda *_, **__: Full())
+    assert send(field, "line.sgy", b"abc") == [0, None]
+    assert "'line.sgy' was not uploaded: it cannot be stored: No space left on device" in field.error
+    field.end()
+
+
+def take(picks, path):
+    """Import picks, and give back what is said."""
+    picks.file.text.value = str(path)
+    picks._read.click()
+    assert picks.wait(LONG)
+    return picks.notice.text
 
 
 @pytest.mark.parametrize("suffix", ["geojson", "csv"])
 def test_picks_go_out_and_come_in(restored, case, tmp_path, suffix):
     picks = restored.files.picks
     picks.out.value = str(tmp_path / f"picks.{suffix}")
-    assert picks.write() == f"Wrote {picks.out.value}."
+    picks.write()
+    assert picks.notice.text == f"Wrote 1 fault and 3 horizons to {picks.out.value}."
     restored.interpretation = sw.Interpretation()
-    picks.file.text.value = picks.out.value
-    assert "Undo brings back" in picks.read()
+    picks.write()
+    assert "exists already" in picks.notice.text
+    answer(picks.notice, "Leave it")
+    assert take(picks, picks.out.value) == "Read 1 fault and 3 horizons; Undo brings back what was there."
     (fault,) = restored.interpretation.faults
     np.testing.assert_array_equal(fault.points, case.interpretation.faults[0].points)
     restored.picker.pen.undo()
-    assert restored.picker.pen.interpretation.faults == ()
+    restored.picker.refresh()
+    assert restored.interpretation.faults == ()
+    picks.write()
+    answer(picks.notice, "Replace it")
+    picks.keep.value = False
+    assert take(picks, picks.out.value) == "Read 0 faults and 0 horizons; Undo brings back what was there."
 
 
-def test_units_that_a_format_lacks_are_asked_for(app, tmp_path):
+def test_picks_that_are_drawn_stay_beside_those_of_a_file(app, tmp_path):
+    old, other, new = (
+        sw.Fault([(x, 100.0), (x, 900.0)], name) for x, name in ((500.0, "A"), (900.0, "B"), (700.0, "A"))
+    )
+    app.interpretation = sw.Interpretation([old, other])
+    app.picker.pen.recolour("fault", "A", "#123456")
+    app.picker.refresh()
+    sw.write_picks(sw.Interpretation([new]), tmp_path / "picks.csv", app.section)
+    take(app.files.picks, tmp_path / "picks.csv")
+    assert [pick.name for pick in app.picker.drawing.picks] == ["A", "B"]
+    assert app.picker.drawing.picks[0].colour == "#123456"
+    np.testing.assert_array_equal(app.interpretation.faults[0].points, new.points)
+    app.files.picks.keep.value = False
+    take(app.files.picks, tmp_path / "picks.csv")
+    assert [pick.name for pick in app.picker.drawing.picks] == ["A"]
+
+
+def test_what_an_export_does_not_say_is_asked_for(app, tmp_path):
     (tmp_path / "export.txt").write_text("-> \n100 0 200\n300 0 260\n-> \n500 0 290\n")
     picks = app.files.picks
-    picks.file.text.value = str(tmp_path / "export.txt")
-    with pytest.raises(SettingError, match="its format cannot be told"):
-        picks.read()
     assert picks._of_exports.layout.display == "none"
+    assert "export.txt: its format cannot be told by its suffix; give “format”" in take(picks, tmp_path / "export.txt")
     picks.format.value = "cps3-horizons"
     assert picks._of_exports.layout.display == ""
+    assert picks.x_unit.options[0] == ("choose: the file does not say", None)
+    assert "choose what “x comes from”" in take(picks, tmp_path / "export.txt")
     picks.along.value = "x"
-    with pytest.raises(DataError, match="x_unit="):
-        picks.read()
+    assert "does not say its x_unit; give “unit of x”" in take(picks, tmp_path / "export.txt")
     picks.x_unit.value = picks.z_unit.value = "m"
-    assert "left out" in picks.read()
-    assert len(app.interpretation.horizons) == 1
+    assert "Read 0 faults and 1 horizon;" in take(picks, tmp_path / "export.txt")
+    assert "left out" in picks.notice.text
+    np.testing.assert_array_equal(app.interpretation.horizons[0].pieces[0], [[100, 200], [300, 260]])
+    assert "give the path" in take(picks, "")
+
+
+def test_places_on_a_map_are_taken_along_the_line_of_the_section(app, tmp_path):
+    path, export = tmp_path / "line.sgy", tmp_path / "export.txt"
+    headers = [{181: 1000 + 3 * trace, 185: 500 + 4 * trace} for trace in range(20)]
+    path.write_bytes(segy_bytes(np.random.default_rng(0).normal(size=(20, 40)).astype(np.float32), headers))
+    export.write_text("-> \n1006 508 20\n1030 540 60\n")
+    picks = app.files.picks
+    picks.format.value, picks.x_unit.value, picks.z_unit.value = "cps3-horizons", "m", "ms"
+    picks.along.value = "segy"
+    assert "does not come from a SEG-Y file" in take(picks, export)
+    load(app, path)
+    assert "Read 0 faults and 1 horizon;" in take(picks, export)
+    np.testing.assert_allclose(app.interpretation.horizons[0].pieces[0], [[10, 20], [50, 60]])
+    picks.along.value = "points"
+    assert "two or more X Y, as in" in take(picks, export)
+    picks.points.value = "1003 504; 1057, 576"
+    assert "Read 0 faults and 1 horizon;" in take(picks, export)
+    np.testing.assert_allclose(app.interpretation.horizons[0].pieces[0], [[5, 20], [45, 60]])
+    load(app, path, dx="7")
+    answer(app.files.section.notice, "Drop the picks")
+    picks.along.value = "segy"
+    assert "were not used for the section" in take(picks, export)
+
+
+def test_an_import_can_be_cancelled(app, tmp_path, monkeypatch):
+    begun, go_on = threading.Event(), threading.Event()
+
+    def slow(*_, **__):
+        begun.set()
+        go_on.wait(LONG)
+        return sw.Interpretation([sw.Fault([(0.0, 0.0), (100.0, 100.0)])])
+
+    monkeypatch.setattr(picksfiles, "read_picks", slow)
+    picks = app.files.picks
+    picks.file.text.value = "picks.csv"
+    picks.read()
+    assert begun.wait(LONG)
+    picks.chore._cancel.click()
+    go_on.set()
+    assert picks.wait(LONG)
+    assert "The import was cancelled" in picks.notice.text
+    assert app.interpretation.faults == ()
 
 
 def test_trouble_with_picks_is_said_beside(app, tmp_path):
     picks = app.files.picks
-    picks.file.text.value = str(tmp_path / f"{HOSTILE.replace('/', '')}.csv")
-    next(child for child in picks.children if getattr(child, "description", "") == "Import picks").click()
-    assert "there is no file" in picks.notice.text
+    assert "there is no file" in take(picks, tmp_path / f"{HOSTILE.replace('/', '')}.csv")
     assert "<img" not in picks.notice._line.value
 
 
@@ -263,6 +510,8 @@ def test_all_results_are_written_and_open_again(restored, tmp_path):
     for box in results.kinds.values():
         box.value = True
     results.export()
+    assert results.wait(LONG)
+    assert f"Wrote into {tmp_path / 'out'}: faulted fold-restored.npz, " in results.notice.text
     assert [path.parent for path in results.written] == [tmp_path / "out"] * 8
     written = {path.name.split("-")[-1]: path for path in results.written}
     section = restored.restoration.section
@@ -275,11 +524,66 @@ def test_all_results_are_written_and_open_again(restored, tmp_path):
     assert "<!DOCTYPE html>" in written["report.html"].read_text()
     with xarray.open_dataset(written["displacement.nc"]) as fields:
         assert "displacement_x" in fields
-    with pytest.raises(DataError, match="exist already; choose another name, or allow"):
-        results.export()
-    results.replace.value = True
+    assert plt.get_fignums() == []
+    before = {path: path.stat().st_mtime_ns for path in results.written}
+    choose_results(results, "report.json", "report.html")
     results.export()
+    assert "There are already: faulted fold-report.json, faulted fold-report.html." in results.notice.text
+    answer(results.notice, "Leave them")
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+    results.export()
+    answer(results.notice, "Replace them")
+    assert results.wait(LONG)
+    assert sum(path.stat().st_mtime_ns != time for path, time in before.items()) == 2
     assert not list((tmp_path / "out").glob(".*"))
+
+
+def choose_results(results, *endings):
+    for ending, box in results.kinds.items():
+        box.value = ending in endings
+
+
+def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path, monkeypatch):
+    begun, go_on = threading.Event(), threading.Event()
+    kind, write = resultfiles.WRITERS["report.json"]
+
+    def slow(result, path):
+        begun.set()
+        go_on.wait(LONG)
+        write(result, path)
+
+    monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, slow))
+    results = restored.files.results
+    results.folder.value = str(tmp_path)
+    choose_results(results, "report.json", "report.html")
+    results.export()
+    assert begun.wait(LONG)
+    assert results.notice.text == "Writing faulted fold-report.json ..."
+    assert results._export.disabled
+    restored.interpretation = sw.Interpretation()  # goes on, and does not change what is written
+    results.chore._cancel.click()
+    go_on.set()
+    assert results.wait(LONG)
+    assert results.notice.text == f"The export was cancelled. Wrote into {tmp_path}: faulted fold-report.json."
+    assert [path.name for path in tmp_path.iterdir()] == ["faulted fold-report.json"]
+    assert len(json.loads(results.written[0].read_text())["stages"]) == 2
+    assert not results._export.disabled
+
+
+def test_one_file_that_cannot_be_written_keeps_no_other_from_it(restored, tmp_path, monkeypatch):
+    kind, _ = resultfiles.WRITERS["report.json"]
+
+    def fail(result, path):
+        raise DataError(f"{path} cannot be written: give x_unit=")
+
+    monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, fail))
+    results = restored.files.results
+    results.folder.value = str(tmp_path)
+    choose_results(results, "report.json", "report.html")
+    results.export()
+    assert results.wait(LONG)
+    assert "report.json cannot be written: give “unit of x”. Wrote into" in results.notice.text
+    assert [path.name for path in results.written] == ["faulted fold-report.html"]
 
 
 @pytest.mark.parametrize(("line", "number"), [("inline", "11"), ("traces", "5 to 9")])
@@ -292,33 +596,32 @@ def test_segy_results_carry_the_headers_of_the_line_they_came_from(app, tmp_path
     assert app.wait(LONG)
     results = app.files.results
     results.folder.value = str(tmp_path)
-    for ending, box in results.kinds.items():
-        box.value = ending == "restored.sgy"
+    choose_results(results, "restored.sgy")
     results.export()
+    assert results.wait(LONG)
     with segyio.open(results.written[0], ignore_geometry=True) as file:
         assert set(file.attributes(189)[:]) == {11}
 
 
-@pytest.mark.parametrize(
-    ("folder", "stem", "match"),
-    [
-        ("", "", "give the folder"),
-        ("{}/none/out", "", "cannot be made"),
-        ("{}", "../up", "a name without folders"),
-        ("{}", "..", "a name without folders"),
-    ],
-)
-def test_results_say_what_they_need(restored, tmp_path, folder, stem, match):
+def test_results_say_what_they_need(restored, tmp_path):
     results = restored.files.results
-    results.folder.value, results.stem.value = folder.format(tmp_path), stem
-    with pytest.raises((DataError, SettingError), match=match):
+    for folder, stem, match in (
+        ("", "", "give the folder"),
+        (str(tmp_path / "none" / "out"), "", "cannot be made"),
+        ("~nobody-of-that-name/out", "", "home"),
+        (str(tmp_path), "../up", "a name without folders"),
+        (str(tmp_path), "..", "a name without folders"),
+    ):
+        results.folder.value, results.stem.value = folder, stem
+        results._export.click()
+        assert match in results.notice.text
+    choose_results(results)
+    with pytest.raises(SettingError, match="choose what to export"):
         results.export()
-    results._said()
-    assert results.notice.text
     assert list(tmp_path.iterdir()) == []
 
 
 def test_without_a_restoration_there_is_nothing_to_export(app, tmp_path):
     app.files.results.folder.value = str(tmp_path)
-    with pytest.raises(SettingError, match="restore the section first"):
+    with pytest.raises(SettingError, match="there is no result yet: restore first"):
         app.files.results.export()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from tests.widgets.browser import READY, SCREENSHOTS
+from tests.widgets.browser import READY, keep_picture
 from tests.widgets.files import line
 
 APP = """
@@ -18,6 +18,10 @@ case = sw.synthetic.faulted_fold()
 app = sw.RestorationApp(case.section, session="{0}.json", source=sw.SectionSource("synthetic", "faulted_fold"),
     live=False, height=300)
 app
+"""
+EXPORTED = """
+app.interpretation, app.fixed, app.live = case.interpretation, case.fixed, True
+app.files.results.folder.value = "{0}-results"
 """
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
@@ -85,8 +89,7 @@ def show(opened, tab):
 
 
 def shoot(opened, called):
-    SCREENSHOTS.mkdir(exist_ok=True)
-    opened.page.screenshot(path=SCREENSHOTS / f"{called}.png")
+    keep_picture(opened.page, called)
 
 
 def test_a_kernel_killed_in_mid_drag_loses_no_finished_edit(app, name):
@@ -178,27 +181,59 @@ def test_a_connection_that_drops_for_ten_seconds_loses_nothing(app, name):
     app.close()  # whatever JupyterLab still has to say of it is not for another test
 
 
-def test_a_segy_line_is_opened_by_path_and_by_upload(notebook, name, lab, tmp_path):
-    app = notebook(APP.format(name), height=1500)
+def test_results_go_out_and_sections_come_in_by_mouse(notebook, name, lab, tmp_path):
+    app = notebook(APP.format(name), EXPORTED.format(name), height=1500)
     ready(app)
-    path = line(lab.folder / f"{name}.sgy", text="C01 <img src=x onerror=alert(1)>".ljust(3200))
     show(app, "File")
-    field = app.page.get_by_placeholder("section: path of")
-    field.fill(path.name)
-    field.press("Enter")
-    app.page.get_by_text("30 traces of 40 samples").wait_for()
-    app.page.get_by_text("textual header").click()
-    app.page.get_by_text("C01 <img src=x").wait_for()
-    shoot(app, "file-panel")
-    app.page.get_by_role("button", name="Open section").click()
+    until(app, "len(app.restoration.stages)", 2)
+    export_and_cancel(app)
+    assert sorted(path.name for path in (lab.folder / f"{name}-results").iterdir()) == [
+        "faulted fold-figure.png",
+        "faulted fold-restored.npz",
+    ]
+    path = line(lab.folder / f"{name}.sgy", text="C01 <img src=x onerror=alert(1)>".ljust(3200))
+    open_by_path(app, path.name)
+    app.page.get_by_role("button", name="Drop the picks").click()
     until(app, "[app.section.name, app.section.shape]", [name, [40, 30]])
     ready(app)
     expected = sw.open_section(path, velocity=2000.0).amplitude
     np.testing.assert_allclose(app.ask("app.section.amplitude[:3].tolist()"), expected[:3], rtol=1e-6)
+    sent = line(tmp_path / "sent.sgy", count=500, samples=6000)
+    assert sent.stat().st_size > 11 * 2**20  # a server closes the connection on a message above 10
     with app.page.expect_file_chooser() as chooser:
         app.page.get_by_role("button", name="Upload").first.click()
-    chooser.value.set_files(line(tmp_path / "sent.sgy", count=50))
-    app.page.get_by_text("50 traces of 40 samples").wait_for()
+    chooser.value.set_files(sent)
+    app.page.get_by_text("500 traces of 6,000 samples").wait_for()
     app.page.get_by_role("button", name="Open section").click()
-    until(app, "[app.section.name, app.section.shape]", ["sent", [40, 50]])
+    until(app, "[app.section.name, app.section.shape]", ["sent", [6000, 500]])
     shoot(app, "file-opened")
+
+
+def export_and_cancel(app):
+    """Begin an export, ask the kernel something meanwhile, and give it up after the second of three files."""
+    app.page.get_by_role("button", name="Export results").click()
+    app.page.get_by_text("Writing faulted fold-figure.png ...").wait_for()
+    assert app.ask("app.files.results.chore.busy")
+    shoot(app, "exporting")
+    app.page.get_by_role("button", name="Cancel").last.click()
+    app.page.get_by_text("The export was cancelled. Wrote into").wait_for()
+
+
+def open_by_path(app, path):
+    """Open a SEG-Y file, after a look at other header bytes."""
+    field = app.page.get_by_placeholder("section: path of")
+    field.fill(path)
+    field.press("Enter")
+    app.page.get_by_text("30 traces of 40 samples").wait_for()
+    assert app.page.locator(f'datalist option[value="{path}"]').count()
+    app.page.get_by_text("textual header").click()
+    app.page.get_by_text("C01 <img src=x").wait_for()
+    other = app.page.get_by_label("other header bytes than the standard's")
+    other.check()
+    app.page.get_by_label("x", exact=True).fill("73")
+    app.page.keyboard.press("Tab")
+    app.page.get_by_text("has no positions of its traces: bytes 73 and 185").wait_for()
+    shoot(app, "file-panel")
+    other.uncheck()
+    app.page.get_by_text("has no positions of its traces").wait_for(state="hidden")
+    app.page.get_by_role("button", name="Open section").click()

@@ -2,7 +2,7 @@ import time
 
 import pytest
 
-from tests.widgets.browser import SCREENSHOTS
+from tests.widgets.browser import keep_picture
 from tests.widgets.test_pane_browser import until
 
 CELL = """
@@ -45,8 +45,7 @@ def is_brushed(opened, first, last):
 
 
 def shoot(opened, name):
-    SCREENSHOTS.mkdir(exist_ok=True)
-    opened.page.locator(".seiswidgets-histogram").first.screenshot(path=SCREENSHOTS / f"{name}.png")
+    keep_picture(opened.page.locator(".seiswidgets-histogram").first, name)
 
 
 @pytest.mark.parametrize("dark", [False, True])

@@ -1,6 +1,5 @@
 """Every notebook in JupyterLab, from its first cell to its exercises; in 01 a section is restored by mouse too."""
 
-import re
 import shutil
 import sys
 

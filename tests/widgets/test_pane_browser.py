@@ -4,7 +4,7 @@ import time
 import numpy as np
 import pytest
 
-from tests.widgets.browser import SCREENSHOTS
+from tests.widgets.browser import keep_picture
 
 CELL = """
 import numpy as np
@@ -66,9 +66,6 @@ pane.overlay = Overlay(levels, palette, (x_min + 0.6 * w, x_max, z_min, z_min + 
 pane
 """
 )
-SLEEP = """(code) => {
-  window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code });
-}"""
 WATCH = """() => {
   const canvas = document.querySelector("canvas.seiswidgets-plot");
   window.watched = [];
@@ -135,7 +132,7 @@ def place(opened, x, y):
 
 def until(opened, code):
     """Wait until an expression is true in the kernel."""
-    for _ in range(50):
+    for _ in range(300):
         if opened.holds(code):
             return
         time.sleep(0.1)
@@ -143,8 +140,7 @@ def until(opened, code):
 
 
 def shoot(opened, name):
-    SCREENSHOTS.mkdir(exist_ok=True)
-    opened.page.screenshot(path=SCREENSHOTS / f"{name}.png")
+    keep_picture(opened.page, name)
 
 
 @pytest.mark.parametrize("ratio", [1, 2])
@@ -284,12 +280,12 @@ def test_linked_cursors_follow_while_the_kernel_is_busy(notebook):
     painted(opened), painted(opened, 1)
     ask = "pane.view.to_pixels(pane.view.to_section((100, 50)) {} [400, 200]).tolist()"
     at = [opened.ask(ask.format(sign)) for sign in "+-"]
-    opened.page.evaluate(SLEEP, "import time; time.sleep(4)")
-    for number, (x, y) in zip((0, 1), at, strict=True):
-        box, other = plot_box(opened, number), opened.page.locator(".seiswidgets-layer").nth(1 - number)
-        opened.page.mouse.move(box["x"] + 100, box["y"] + 50)
-        cross = other.locator(".linked line.cross").first
-        cross.wait_for(state="attached", timeout=2000)
-        assert float(cross.get_attribute("x1")) == pytest.approx(x, abs=1)
-        end = re.findall(r"[-.\d]+", other.locator(".rubber").get_attribute("d"))[-2:]
-        assert [float(value) for value in end] == pytest.approx([x, y], abs=1)
+    with opened.kernel_at_work():
+        for number, (x, y) in zip((0, 1), at, strict=True):
+            box, other = plot_box(opened, number), opened.page.locator(".seiswidgets-layer").nth(1 - number)
+            opened.page.mouse.move(box["x"] + 100, box["y"] + 50)
+            cross = other.locator(".linked line.cross").first
+            cross.wait_for(state="attached")
+            assert float(cross.get_attribute("x1")) == pytest.approx(x, abs=1)
+            end = re.findall(r"[-.\d]+", other.locator(".rubber").get_attribute("d"))[-2:]
+            assert [float(value) for value in end] == pytest.approx([x, y], abs=1)

@@ -1,4 +1,4 @@
-from tests.widgets.browser import SCREENSHOTS
+from tests.widgets.browser import keep_picture
 from tests.widgets.test_pane_browser import until
 
 CELL = """
@@ -48,7 +48,7 @@ def test_names_are_text_and_all_fits_a_narrow_place(notebook):
     assert choice.evaluate("(one) => one.selectedOptions[0].textContent").startswith("<img")
     assert opened.page.locator("option img").count() == 0
     steps = opened.page.locator(".widget-vbox").first
-    steps.screenshot(path=SCREENSHOTS / "step-list-narrow.png")
+    keep_picture(steps, "step-list-narrow")
     right = "(all) => Math.max(...all.map((one) => one.getBoundingClientRect().right))"
     left = steps.bounding_box()["x"]
     assert steps.locator("select, input, button").evaluate_all(right) <= left + 321

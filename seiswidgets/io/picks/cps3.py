@@ -8,7 +8,7 @@ from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
 from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
 from seiswidgets.io.picks.lines import Found
-from seiswidgets.io.picks.numbers import number, undefined
+from seiswidgets.io.picks.numbers import depth, number
 
 HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written, nothing that places a pick
 
@@ -40,5 +40,4 @@ def _node(path, place, row, block):
     if len(values) != 3:
         raise DataError(f"{path}: {place} must be X, Y and Z, but has {len(values)} values; export it again with Z")
     x, y = (number(path, place, what, text) for what, text in zip("XY", values, strict=False))
-    z = np.nan if undefined(values[2]) else number(path, place, "Z", values[2])
-    return Node({"": np.nan}, path.stem, str(block), x, y, z, place)
+    return Node({"": np.nan}, path.stem, str(block), x, y, depth(path, place, values[2]), place)

@@ -10,17 +10,16 @@ import numpy as np
 import shapely
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.document import shortened
+from seiswidgets.io.document import MOST_POINTS, lines, shortened
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Line
 
 BESIDE = 0.01  # of the line's length: how far from it a pick may lie
-
 SHOWN = 6  # seismic lines, where a message names those that there are
 
 Along = str | Callable | np.ndarray | list
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Node:
     """A point of an export.
 
@@ -56,15 +55,18 @@ class Choices:
 
 def rows(text: str) -> Iterator[tuple[str, str]]:
     """Place and content of the rows that are neither blank nor a comment."""
-    for count, row in enumerate(text.splitlines(), 1):
+    for count, row in enumerate(lines(text), 1):
         if row.strip() and not row.lstrip().startswith(("#", "!")):
             yield f"row {count}", row
 
 
 def fault_lines(path: Path, nodes: Iterable[Node], choices: Choices) -> tuple[Line, ...]:
-    """A fault a stick, called as it is, with its stick's number where its fault has several on the line."""
+    """A fault a stick, called as it is, with its stick's number where its fault has several on the line.
+
+    Points without a depth are left out.
+    """
     seismic, nodes = _on_one_line(path, nodes, choices.line)
-    sticks = _grouped(nodes, lambda node: (node.name, node.part))
+    sticks = _grouped((node for node in nodes if not np.isnan(node.z)), lambda node: (node.name, node.part))
     several = Counter(name for name, _ in sticks)
     return tuple(
         _line(path, FAULT, f"{name} {part}" if several[name] > 1 else name, stick, seismic, choices)
@@ -92,6 +94,11 @@ def _on_one_line(path, nodes, line):
             raise DataError(f"{path} holds picks on several seismic lines: {_listed(known)}; choose one by line=")
         if line is None or line in node.lines:
             kept.append(node)
+        if len(kept) > MOST_POINTS:
+            raise DataError(
+                f"{path}: {node.place} is one more than the {MOST_POINTS:,} points that there may be on a line; export "
+                "fewer"
+            )
     if possible is None:
         raise DataError(f"{path} holds no picks; export it again")
     if not kept:
@@ -157,7 +164,7 @@ def _answer(along, x, y, trace):
 def _distances(path, nodes, places, along):
     """Distances from the first point of the line on the map, along it."""
     try:
-        line = shapely.LineString(np.array(along, float))
+        line = shapely.LineString(np.array(along, float).reshape(len(along), 2))
     except (TypeError, ValueError, shapely.errors.GEOSException):
         line = shapely.LineString()
     if not (line.length > 0 and np.isfinite(line.length)):

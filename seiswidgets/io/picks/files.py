@@ -1,12 +1,12 @@
 """The two doors: picks from a file, and picks into one."""
 
 import os
-from pathlib import Path
 
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.geology.section import Section
-from seiswidgets.io.document import check_size
+from seiswidgets.geology.section import METRES, Section
+from seiswidgets.io.document import LARGEST_OURS, check_size, shortened
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
 from seiswidgets.io.picks.exports import Along, Choices
 from seiswidgets.io.picks.lines import Found, Line, in_section_units, interpretation, without_single_points
@@ -62,20 +62,26 @@ def read_picks(
     DataError
         If the file cannot be read as picks; the message names the file, the place in it, and what to do.
     SettingError
-        If the format is not known.
+        If the format is not known, or a choice has no meaning for it.
 
     Warns
     -----
     UserWarning
         If single points of an export were left out, because they make no line.
     """
-    path = Path(path)
+    path = user_path(path)
     chosen = _format(path, format, (*OURS, *EXPORTS))
     if chosen in OURS:
+        if along is not None or line is not None:
+            raise SettingError(
+                f"along= and line= have no meaning for {chosen}, which is of one section; leave them out"
+            )
         found = OURS[chosen].read(path)
         lines = found.lines
     else:
-        found = EXPORTS[chosen](path, Choices(line, along, section.x0))
+        here = METRES[section.x_unit]
+        start = section.x0 * here / METRES.get(x_unit, here)  # in the file's unit, as all that it gives
+        found = EXPORTS[chosen](path, Choices(line, along, start))
         lines = without_single_points(path, found.lines)
         if not z_up:
             _check_sign(path, lines, section)
@@ -113,14 +119,14 @@ def write_picks(
     SettingError
         If the format is not one of these.
     """
-    path = Path(path)
+    path = user_path(path)
     module = OURS[_format(path, format, tuple(OURS))]
     text = module.text(interpretation, section.x_unit, section.z_unit)
     try:
         content = text.encode()
     except UnicodeEncodeError as error:
         raise DataError(f"{path}: a name holds half a character, {error.object[error.start]!r}; rename it") from None
-    check_size(path, content, module.LARGEST)
+    check_size(path, content, LARGEST_OURS)
     write_whole(path, content)
 
 
@@ -137,7 +143,8 @@ def _unit(path, axis, stated, given):
     """The file's unit, stated or given; both must not differ."""
     if stated is not None and given is not None and stated != given:
         raise DataError(
-            f"{path} states {axis} {stated!r}, but {axis}={given!r} is given; leave that out, or correct the file"
+            f"{path} states {axis} {shortened(repr(stated))}, but {axis}={given!r} is given; leave that out, or "
+            "correct the file"
         )
     return given if stated is None else stated
 

@@ -4,12 +4,11 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import LARGEST_JSON, Entry, json_text, read_json
+from seiswidgets.io.document import Entry, json_text, read_json
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
 
 MARK = "seiswidgets_picks"  # a foreign member, as RFC 7946 allows
 VERSION = 1
-LARGEST = LARGEST_JSON
 GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}
 
 
@@ -20,6 +19,10 @@ def read(path: Path) -> Found:
     are (x, z) on the section, not longitude and latitude.
     """
     document = read_json(path)
+    if MARK not in document.members():
+        raise DataError(
+            f"{path} is not GeoJSON of picks: it lacks {MARK!r}, which states their units; save them by write_picks"
+        )
     mark = document[MARK]
     if (version := mark["version"].number()) > VERSION:
         raise DataError(f"{path} is in version {version:g} of our GeoJSON, this is for {VERSION}; update seiswidgets")
@@ -36,7 +39,7 @@ def _lines(feature: Entry):
         raise geometry["type"].error(f"{GEOMETRY[kind]!r} for a {kind}")
     drawn = geometry["coordinates"]
     name = properties["name"].text()
-    pieces = [drawn] if kind == FAULT else drawn.items()
+    pieces = [drawn] if kind == FAULT else list(drawn.items())
     if not pieces:
         raise drawn.error("a list of pieces")
     return [Line(kind, name, piece.points(), piece.place) for piece in pieces]

@@ -78,8 +78,8 @@ def _factor(path, axis, unit, wanted, section):
     known = METRES if axis == "x_unit" else METRES | SECONDS
     if unit is None:
         raise DataError(f"{path} does not say its {axis}; give {axis}=, one of {', '.join(known)}")
-    if unit not in known:
-        raise DataError(f"{path}: {axis} must be one of {', '.join(known)}, but is {unit!r}")
+    if unit not in tuple(known):
+        raise DataError(f"{path}: {axis} must be one of {', '.join(known)}, but is {shortened(repr(unit))}")
     if unit == wanted:
         return 1
     family = METRES if unit in METRES else SECONDS

@@ -1,11 +1,12 @@
 """Numbers in text files of picks."""
 
+from math import nan
 from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import LARGEST_NUMBER
 
-UNDEFINED = 1e29  # other programs write 1e30 where there is no pick
+UNDEFINED = 9_999_900  # and more: other programs write 9999900, 9999999 or 1e30 where there is no pick
 
 
 def number(path: Path, place: str, what: str, text: str) -> float:
@@ -19,13 +20,14 @@ def number(path: Path, place: str, what: str, text: str) -> float:
     return value
 
 
-def undefined(text: str) -> bool:
-    """Whether another program's way to say that there is no pick."""
-    return text == "-" or abs(_float(text)) >= UNDEFINED
+def depth(path: Path, place: str, text: str) -> float:
+    """A depth or time as `number` has it, or NaN for another program's way to say that there is no pick."""
+    undefined = text == "-" or abs(_float(text)) >= UNDEFINED
+    return nan if undefined else number(path, place, "Z", text)
 
 
 def _float(text):
     try:
         return float(text)
     except ValueError:
-        return float("nan")
+        return nan

@@ -9,7 +9,7 @@ from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
 from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
 from seiswidgets.io.picks.lines import Found
-from seiswidgets.io.picks.numbers import number, undefined
+from seiswidgets.io.picks.numbers import depth, number
 
 HEADER = 4000  # characters, in which a header is looked for
 QUOTED = re.compile(r'\s*"([^"]*)"')
@@ -19,8 +19,8 @@ def read_horizons(path: Path, choices: Choices) -> Found:
     """2-D horizons (Export > Horizons > ASCII 2D): ["horizon"] ["line"] X Y trace shot-point Z, between blanks.
 
     Names stand in double quotes. With both it is horizon, then line; with one it is the line, unless the header names
-    the horizon's column alone. A horizon without a name is called as the file. Z is undefined from 1e29 on, or if it is
-    "-"; there, and where trace numbers jump, a piece ends. The header, if there is one, states the unit of z.
+    the horizon's column alone. A horizon without a name is called as the file. Z is undefined from 9,999,900 on, or
+    if it is "-"; there, and where trace numbers jump, a piece ends. The header, if there is one, states the unit of z.
     """
     text = read_text(path)
     header = " ".join(row for row in text[:HEADER].splitlines() if row.lstrip().startswith("#"))
@@ -42,8 +42,7 @@ def _horizon_node(path, place, row, horizon_alone):
         )
     horizon, line = names or (path.stem, "")
     x, y, trace = (number(path, place, what, text) for what, text in zip(("X", "Y", "trace"), values, strict=False))
-    z = np.nan if undefined(values[4]) else number(path, place, "Z", values[4])
-    return Node({line: trace}, horizon, "", x, y, z, place)
+    return Node({line: trace}, horizon, "", x, y, depth(path, place, values[4]), place)
 
 
 def _names(row):
@@ -73,6 +72,7 @@ def _fault_node(path, place, row):
             f"{path}: {place} must be the fault's name in quotes or none, then X, Y, Z, stick index, node index and "
             "the line's name or none; export it again, with both indices"
         )
-    x, y, z = (number(path, place, what, text) for what, text in zip("XYZ", values, strict=False))
+    x, y = (number(path, place, what, text) for what, text in zip("XY", values, strict=False))
     line = values[5].strip() if len(values) == 6 else ""
+    z = depth(path, place, values[2].strip())
     return Node({line: np.nan}, (names or [path.stem])[0], values[3].strip(), x, y, z, place)

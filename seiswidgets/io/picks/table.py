@@ -7,11 +7,10 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import LARGEST_TEXT, read_text
+from seiswidgets.io.document import LARGEST_OURS, lines, read_text
 from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
 from seiswidgets.io.picks.numbers import number
 
-LARGEST = LARGEST_TEXT
 COLUMNS = ("kind", "name", "piece", "x", "z")
 
 
@@ -25,21 +24,24 @@ def read(path: Path) -> Found:
     if header is None:
         raise DataError(f"{path} is empty; its first row must name the columns {', '.join(COLUMNS)}")
     columns, units = _columns(path, header)
-    lines: dict[tuple[str, str, str], tuple[str, list]] = {}
+    drawn: dict[tuple[str, str, str], tuple[str, list]] = {}
     for place, row in rows:
         if len(row) != len(header):
-            raise DataError(f"{path}: {place} must have {len(header)} values as the first, but has {len(row)}")
+            raise DataError(
+                f"{path}: {place} must have {len(header)} values as the first, but has {len(row)}; correct or delete "
+                "that row"
+            )
         kind, name, piece = (row[columns[column]] for column in COLUMNS[:3])
         if kind not in (FAULT, HORIZON):
             raise DataError(f"{path}: {place}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
         point = tuple(number(path, place, column, row[columns[column]]) for column in ("x", "z"))
-        lines.setdefault((kind, name, piece), (place, []))[1].append(point)
-    found = tuple(Line(kind, name, tuple(points), place) for (kind, name, _), (place, points) in lines.items())
+        drawn.setdefault((kind, name, piece), (place, []))[1].append(point)
+    found = tuple(Line(kind, name, tuple(points), place) for (kind, name, _), (place, points) in drawn.items())
     return Found(found, units["x"], units["z"])
 
 
 def _rows(path):
-    reader = csv.reader(io.StringIO(read_text(path), newline=""), strict=True)
+    reader = csv.reader(lines(read_text(path, LARGEST_OURS)), strict=True)
     try:
         for row in reader:
             if row:
@@ -51,12 +53,13 @@ def _rows(path):
 def _columns(path, header):
     """Where the columns are, and the units of x and z."""
     named = [re.fullmatch(r"(\w+) ?(?:\((\w+)\))?", title.strip()) for title in header]
-    places = {match[1].lower(): place for place, match in enumerate(named) if match}
-    lacking = [column for column in COLUMNS if column not in places]
+    titles = [match[1].lower() if match else "" for match in named]
+    places = {title: place for place, title in enumerate(titles)}
+    lacking = [column for column in COLUMNS if titles.count(column) != 1]
     if lacking:
         raise DataError(
-            f"{path}: row 1 must name the columns {', '.join(COLUMNS)}, separated by commas, but lacks "
-            f"{', '.join(lacking)}"
+            f"{path}: row 1 must name the columns {', '.join(COLUMNS)}, each once and separated by commas; missing or "
+            f"doubled: {', '.join(lacking)}"
         )
     return places, {axis: named[places[axis]][2] for axis in ("x", "z")}
 

@@ -1,30 +1,27 @@
 """The file that something is read from: its path, or an upload."""
 
-from pathlib import Path
-from tempfile import TemporaryDirectory
+import os
+from html import escape
+from itertools import islice
 
-from ipywidgets import FileUpload, HBox, Layout, Text
+from ipywidgets import HTML, Combobox, HBox, Layout, VBox
 from traitlets import Unicode
 
-from seiswidgets.errors import DataError
-from seiswidgets.widgets.files.filenames import file_name
+from seiswidgets.widgets.files.upload import Upload
+from seiswidgets.widgets.messages import HINT
 
-MOST_UPLOADED = 100 * 2**20  # bytes
-TIP = (
-    "send a file from your computer; most servers take up to 10 MB at once: put a larger one into their folder, and "
-    "give its path"
-)
+MOST_LISTED = 500  # entries of a folder that are looked at
 
 
-class FileField(HBox):
-    """A path to be typed, with a button to upload a file instead.
+class FileField(VBox):
+    """A path to be typed, or chosen of those in a folder that was typed, with a button to upload a file instead.
 
     Parameters
     ----------
     placeholder : str
         What kind of path is asked for.
     accept : str
-        Suffixes that the browser offers for uploads, between commas.
+        Suffixes of the files that are offered, between commas; all if left out.
 
     Attributes
     ----------
@@ -38,50 +35,52 @@ class FileField(HBox):
     error = Unicode()
 
     def __init__(self, placeholder: str, accept: str = ""):
-        self._folder = None
-        self.text = Text(placeholder=placeholder, continuous_update=False, layout=Layout(flex="1", width="auto"))
-        self.upload = FileUpload(accept=accept, multiple=False, tooltip=TIP, layout=Layout(width="auto"))
-        super().__init__([self.text, self.upload])
-        self.text.observe(lambda change: self.set_trait("path", change.new.strip()), "value")
-        self.upload.observe(self._take_upload, "value")
+        layout = Layout(flex="1", width="auto")
+        self.text = Combobox(placeholder=placeholder, continuous_update=False, layout=layout)
+        self.upload, self._sent = Upload(accept), HTML(layout=Layout(display="none"))
+        super().__init__([HBox([self.text, self.upload]), self._sent])
+        self.text.observe(self._take_text, "value")
+        self.upload.observe(self._take_upload, "path")
+        self.upload.observe(lambda change: self.set_trait("error", change.new), "error")
+        self._offer("")
 
     @property
     def is_uploaded(self) -> bool:
         """Whether the file is an upload, which does not stay."""
-        return self._folder is not None and Path(self.path).parent == Path(self._folder.name)
+        return self.upload.path is not None and self.path == str(self.upload.path)
 
     def end(self) -> None:
         """Delete what was uploaded."""
-        if self._folder is not None:
-            self._folder.cleanup()
-            self._folder = None
+        self.upload.end()
+
+    def _take_text(self, change):
+        if change.new or not self.is_uploaded:
+            self._say("")
+            self._offer(change.new.strip())
+            self.path = change.new.strip()
 
     def _take_upload(self, change):
-        if not change.new:
-            return
-        (file,) = change.new
-        self.upload.value = ()  # or its content would be kept, and the same file could not come again
-        try:
-            path = self._stored(file)
-        except DataError as error:
-            self.error = str(error)
-            return
-        self.error, self.text.value = "", ""
-        self.path = str(path)
+        self.path = ""  # a file that was sent again may hold something else
+        if change.new is not None:
+            self.path, self.text.value = str(change.new), ""
+            self._say(f"Uploaded: {change.new.name}")
 
-    def _stored(self, file):
-        """The path of an upload's content; its name is a stranger's, and keeps only what is harmless."""
-        name, content = str(file["name"]), file["content"]
-        if len(content) > MOST_UPLOADED or len(content) != file["size"]:
-            raise DataError(
-                f"{name!r} has {len(content):,} of {file['size']:,} bytes; there may be {MOST_UPLOADED:,}: put it into "
-                "the server's folder, and give its path"
-            )
-        if self._folder is None:
-            self._folder = TemporaryDirectory(prefix="seiswidgets-")
-        path = Path(self._folder.name) / file_name(name, "file")
-        try:
-            path.write_bytes(content)
-        except OSError as error:
-            raise DataError(f"{name!r} cannot be stored: {error.strerror or error}; make room") from error
-        return path
+    def _say(self, text):
+        self._sent.value, self._sent.layout.display = HINT.format(escape(text)), "" if text else "none"
+
+    def _offer(self, typed):
+        """Offer what there is in the folder that was typed, or that the file is in."""
+        folder = typed if os.path.isdir(os.path.expanduser(typed)) else os.path.dirname(typed)
+        names = _names(os.path.expanduser(folder) or ".", tuple(self.upload.accept.split(",")))
+        self.text.options = [os.path.join(folder, name) for name in names]
+
+
+def _names(folder, suffixes):
+    """Of the folders in a folder, and of its files with one of the suffixes; nothing of one that cannot be read."""
+    try:
+        with os.scandir(folder) as entries:
+            kept = [entry for entry in islice(entries, MOST_LISTED) if not entry.name.startswith(".")]
+            named = [entry.name + os.sep * entry.is_dir() for entry in kept]
+    except (OSError, ValueError):
+        return []
+    return sorted(name for name in named if name.endswith(os.sep) or name.lower().endswith(suffixes))

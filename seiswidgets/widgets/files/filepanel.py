@@ -1,5 +1,8 @@
 """The app's tab of files: a section in, picks in and out, results out, and the session."""
 
+from html import escape
+from pathlib import Path
+
 from ipywidgets import HTML, Button, HBox, Layout, Text, VBox
 
 from seiswidgets.errors import SeiswidgetsError
@@ -7,8 +10,13 @@ from seiswidgets.widgets.files.picksfiles import PicksFiles
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.resultfiles import ResultFiles
 from seiswidgets.widgets.files.sectionopener import SectionOpener
+from seiswidgets.widgets.messages import HINT
 
 HEADING = "<b>{}</b>"
+KEPT = "Every edit is saved in {} from now on."
+ASKED = "There is earlier work in {}: choose above the section what becomes of it."
+UNKEPT = "Nothing is saved by itself now."
+WHERE = "Files are on the computer that runs the notebook. A path that begins with no / begins in {}."
 
 
 class FilePanel(VBox):
@@ -27,17 +35,19 @@ class FilePanel(VBox):
     def __init__(self, app):
         self.section, self.picks, self.results = SectionOpener(app), PicksFiles(app), ResultFiles(app)
         self.session = SessionFile(app)
+        where = HTML(HINT.format(WHERE.format(escape(str(Path.cwd())))))
         parts = {"Section": self.section, "Picks": self.picks, "Results": self.results, "Session": self.session}
-        super().__init__([child for title, part in parts.items() for child in (HTML(HEADING.format(title)), part)])
+        children = [child for title, part in parts.items() for child in (HTML(HEADING.format(title)), part)]
+        super().__init__([where, *children])
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is being opened; False if that took too long."""
-        return self.section.wait(timeout)
+        """Wait until nothing is being opened, read or written; False if that took too long."""
+        return all(part.wait(timeout) for part in (self.section, self.picks, self.results))
 
     def end(self) -> None:
         """Give up what is under way, and delete what was uploaded."""
-        self.section.end()
-        self.picks.end()
+        for part in (self.section, self.picks, self.results):
+            part.end()
 
 
 class SessionFile(VBox):
@@ -62,14 +72,18 @@ class SessionFile(VBox):
         super().__init__([HBox([self.path, keep]), self.notice])
         keep.on_click(lambda _: self._keep())
         app.keeper.observe(lambda change: self._take_path(), "path")
+        app.keeper.notice.observe(lambda change: self.notice.hint(""), "text")  # as when its question was answered
         self._take_path()
 
     def _keep(self):
-        self.notice.hint("")
         try:
             self._app.session_path = self.path.value.strip() or None
         except SeiswidgetsError as error:
             self.notice.alert(str(error))
+        else:
+            asked = self._app.keeper.notice.answers
+            kept = ASKED if asked else KEPT if self._app.session_path else UNKEPT
+            self.notice.hint(kept.format(self._app.session_path))
 
     def _take_path(self):
         if self._app.keeper.path is not None:

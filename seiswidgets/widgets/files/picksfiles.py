@@ -1,19 +1,40 @@
 """Picks in and out of files, in the app."""
 
 import warnings
-from os.path import expanduser
+from functools import partial
 
 from ipywidgets import Button, Checkbox, Dropdown, HBox, Layout, Text, VBox
 
-from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.errors import SeiswidgetsError, SettingError
+from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import METRES, SECONDS
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.picks import read_picks, write_picks
 from seiswidgets.io.picks.files import EXPORTS
+from seiswidgets.widgets.files.chore import Chore
 from seiswidgets.widgets.files.filefield import FileField
+from seiswidgets.widgets.files.labels import LABELS, in_labels
+from seiswidgets.widgets.files.linemap import points_of, segy_line
 from seiswidgets.widgets.files.question import Question
+from seiswidgets.widgets.panes.canvas import LOCK
+from seiswidgets.widgets.picking.drawing import Drawing
 
-STATED = "as the file says"
-STYLE, WIDE = {"description_width": "110px"}, Layout(width="auto")
+OURS = "by the suffix: GeoJSON or CSV"
+STATED, NOT_STATED = "as the file says", "choose: the file does not say"
+STATES = {  # of x and z
+    None: (STATED, STATED),
+    "opendtect-horizons": (NOT_STATED, "as the file says, if it does"),
+}
+POINTS, SEGY = "points", "segy"
+PLACES = {
+    "choose: the file has places on a map": None,
+    "the map's X": "x",
+    "the map's Y": "y",
+    "the way along the line, as its SEG-Y file has it": SEGY,
+    "the way along a line through these points": POINTS,
+}
+REPLACE, LEAVE = "Replace it", "Leave it"
+STYLE, WIDE = {"description_width": "130px"}, Layout(width="auto")
 
 
 class PicksFiles(VBox):
@@ -27,6 +48,8 @@ class PicksFiles(VBox):
     ----------
     file, out : FileField, Text
         What is read, and the path that is written to.
+    chore : Chore
+        The reading that is under way.
     notice : Question
         What was done, or is wrong.
     """
@@ -34,73 +57,140 @@ class PicksFiles(VBox):
     def __init__(self, app):
         self._app = app
         self.file, self.notice = FileField("picks: path of a .geojson, .csv or exported file"), Question()
-        self.format = _chooser("format", {"by the suffix: GeoJSON or CSV": None, **{name: name for name in EXPORTS}})
-        self.x_unit = _chooser("unit of x", {STATED: None, **{name: name for name in METRES}})
-        self.z_unit = _chooser("unit of z", {STATED: None, **{name: name for name in (*METRES, *SECONDS)}})
+        self.chore = Chore(self.notice, lambda: "The import was cancelled; the picks are as they were.")
+        self.format = _chooser("format", {OURS: None, **{name: name for name in EXPORTS}})
+        self.x_unit, self.z_unit = _chooser("unit of x", {}), _chooser("unit of z", {})
         self.z_up = Checkbox(description="z grows upwards in the file", indent=False)
-        self.along = _chooser("x is the", {"x of the section": None, "map's X": "x", "map's Y": "y"})
-        self.line = Text(description="seismic line", placeholder="if there are several", style=STYLE, layout=WIDE)
-        self._of_exports = VBox([self.along, self.line, self.z_up], layout=Layout(display="none"))
-        self.out = Text(placeholder="picks.geojson or picks.csv", layout=Layout(flex="1", width="auto"))
-        read = Button(description="Import picks", icon="sign-in", layout=Layout(width="auto", align_self="flex-start"))
-        write = Button(description="Export picks", icon="sign-out", layout=Layout(width="auto"))
-        units = [self.format, self.x_unit, self.z_unit, self._of_exports]
-        super().__init__([self.file, *units, read, HBox([self.out, write]), self.notice])
+        self.along = _chooser(LABELS["along"], PLACES)
+        self.points = _text("points of the line", "X Y of its first trace; X Y of its last, in the unit of x")
+        self.line = _text(LABELS["line"], "its name, if there are several")
+        self.keep = _chooser("picks drawn", {"stay, but for the same names": True, "make room": False})
+        self._of_exports = VBox([self.along, self.points, self.line, self.z_up])
+        layout = Layout(flex="1", width="auto")
+        self.out = Text("picks.geojson", placeholder="picks.geojson or picks.csv", layout=layout)
+        self._read = Button(description="Import picks", icon="sign-in", layout=WIDE)
+        write = Button(description="Export picks", icon="sign-out", layout=WIDE)
+        choices = [self.format, self.x_unit, self.z_unit, self._of_exports, self.keep]
+        super().__init__([self.file, *choices, HBox([self._read, self.chore]), HBox([self.out, write]), self.notice])
         self.format.observe(self._take_format, "value")
+        self.along.observe(self._take_along, "value")
+        self._take_format()
+        self._take_along()
         self.file.observe(lambda change: self.notice.alert(change.new), "error")
-        read.on_click(lambda _: self._said(self.read))
+        self.chore.observe(lambda change: setattr(self._read, "disabled", change.new), "busy")
+        self._read.on_click(lambda _: self._said(self.read))
         write.on_click(lambda _: self._said(self.write))
 
-    def read(self) -> str:
-        """Take the picks of the file instead of those that are drawn, and say what came.
+    def read(self) -> None:
+        """Take the picks of the file, in the background.
 
         Raises
         ------
         DataError, SettingError
-            As for `read_picks`.
+            If a choice is missing, or none.
         """
-        exported = {"z_up": self.z_up.value, "along": self.along.value, "line": self.line.value.strip() or None}
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            picks = read_picks(
-                expanduser(self.file.path),
-                self._app.section,
-                format=self.format.value,
-                x_unit=self.x_unit.value,
-                z_unit=self.z_unit.value,
-                **exported if self.format.value else {},
-            )
-        self._app.interpretation = picks
-        came = f"Read {len(picks.faults)} faults and {len(picks.horizons)} horizons; Undo brings back what was there."
-        return " ".join([came, *(f"{warning.message}." for warning in caught)])
+        if not self.file.path:
+            raise SettingError("give the path of a file of picks, or upload one")
+        choices = {"format": self.format.value, "x_unit": self.x_unit.value, "z_unit": self.z_unit.value}
+        if self.format.value:
+            along, line = self._along(), self.line.value.strip() or None
+            choices |= {"z_up": self.z_up.value, "along": along, "line": line}
+        self.notice.hint("Reading ...")
+        self.chore.begin(partial(self._picks_of, self.file.path, self._app.section, self._app.source, choices))
 
-    def write(self) -> str:
-        """Write the picks, and say where.
+    def write(self, replace: bool = False) -> None:
+        """Write the picks, and say where; ask before another file is replaced.
 
         Raises
         ------
         DataError, SettingError
             As for `write_picks`.
         """
-        path = expanduser(self.out.value.strip())
+        path = user_path(self.out.value.strip())
+        if path.is_file() and not replace:
+            again = partial(self._said, partial(self.write, replace=True))
+            self.notice.ask(f"{path} exists already.", {REPLACE: again, LEAVE: lambda: None})
+            return
         picks = self._app.interpretation
         write_picks(picks, path, self._app.section)
         left_out = len(self._app.picker.drawing.picks) - len(picks.faults) - len(picks.horizons)
-        return f"Wrote {path}." + (f" {left_out} picks that cannot be used were left out." if left_out else "")
+        these = f" {left_out} picks that cannot be used were left out." if left_out else ""
+        self.notice.hint(f"Wrote {_counted(picks)} to {path.absolute()}.{these}")
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until nothing is being read; False if that took too long."""
+        return self.chore.wait(timeout)
 
     def end(self) -> None:
-        """Delete what was uploaded."""
+        """Give up what is under way, and delete what was uploaded."""
+        self.chore.drop()
         self.file.end()
+
+    def _along(self):
+        """Where on the section places of the file are, as `read_picks` takes it; or SEGY."""
+        if self.along.value is None:
+            raise SettingError(f"the file has places (X, Y) on a map: choose what “{LABELS['along']}”")
+        return points_of(self.points.value) if self.along.value == POINTS else self.along.value
+
+    def _picks_of(self, path, section, source, choices, tell):
+        """Read picks, on the chore's thread."""
+        if choices.get("along") == SEGY:
+            choices["along"] = segy_line(source)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            picks = read_picks(path, section, **choices)
+        return partial(self._take, picks, [str(warning.message) for warning in caught])
+
+    def _take(self, picks, warned):
+        picker = self._app.picker
+        with LOCK:
+            take = _added if self.keep.value else Drawing.with_interpretation
+            picker.take(take(picker.drawing, picks))
+        came = f"Read {_counted(picks)}; Undo brings back what was there."
+        self.notice.hint(" ".join([came, *(f"{text}." for text in warned)]))
 
     def _said(self, action):
         try:
-            self.notice.hint(action())
+            action()
         except SeiswidgetsError as error:
-            self.notice.alert(str(error))
+            self.notice.alert(in_labels(str(error)))
 
-    def _take_format(self, change):
-        self._of_exports.layout.display = "" if change.new else "none"
+    def _take_format(self, change=None):
+        """Ask what the format does not say."""
+        states_x, states_z = STATES.get(self.format.value, (NOT_STATED, NOT_STATED))
+        self._of_exports.layout.display = "none" if self.format.value is None else ""
+        _offer(self.x_unit, {states_x: None, **{name: name for name in METRES}})
+        _offer(self.z_unit, {states_z: None, **{name: name for name in (*METRES, *SECONDS)}})
+
+    def _take_along(self, change=None):
+        self.points.layout.display = "" if self.along.value == POINTS else "none"
+
+
+def _added(drawing, picks):
+    """A drawing with picks of a file beside its own, but for those of the same names."""
+    for kind, found in ((FAULT, picks.faults), (HORIZON, picks.horizons)):
+        for pick in found:
+            pieces = (pick.points,) if kind == FAULT else pick.pieces
+            add = drawing.with_pieces if pick.name in drawing.names(kind) else drawing.with_pick
+            drawing = add(kind, pick.name, pieces)
+    return drawing
+
+
+def _counted(picks):
+    faults, horizons = len(picks.faults), len(picks.horizons)
+    return f"{faults} fault{'s' * (faults != 1)} and {horizons} horizon{'s' * (horizons != 1)}"
+
+
+def _offer(chooser, options):
+    """Other options; what was chosen stays so."""
+    place = list(options.values()).index(chooser.value)
+    chooser.options = list(options.items())
+    chooser.index = place
 
 
 def _chooser(words, options):
     return Dropdown(options=list(options.items()), description=words, style=STYLE, layout=WIDE)
+
+
+def _text(words, placeholder):
+    return Text(description=words, placeholder=placeholder, style=STYLE, layout=Layout(width="auto"))

@@ -3,12 +3,14 @@
 from html import escape
 
 from ipywidgets import HTML, Dropdown, Layout, Text, VBox
-from traitlets import Bool
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import asked
 from seiswidgets.geology.section import METRES, SECONDS
 from seiswidgets.io.info import SectionInfo
+from seiswidgets.io.segy import PER_MS_OR_M
+from seiswidgets.widgets.files.labels import LABELS, in_labels
+from seiswidgets.widgets.messages import HINT
 
 HEIGHTS = {
     "two-way time (ms)": "ms",
@@ -18,22 +20,21 @@ HEIGHTS = {
     "depth (ft)": "ft",
 }
 VELOCITY, TRACES_APART, SAMPLES_APART = 2000.0, 25.0, 4.0  # usual values, offered where a file says nothing
+ALL = "all traces"
 LINES = ("inline", "crossline", "traces")
-EXTENT = ("x_min", "x_max", "z_min", "z_max")
+NUMBER = {"inline": "its number", "crossline": "its number", "traces": "counted from 0"}
+EXTENT = {"x_min": "left edge", "x_max": "right edge", "z_min": "top", "z_max": "bottom"}
+OF_Z = ("dz", "z0", "z_min", "z_max")
+OF_X = ("dx", "x_min", "x_max")
+KEPT = ("z_unit", "velocity", "x_unit")  # of the same file, when it is looked at again
 ASSUMED = "Assumed, as the file does not say: {}. Correct what is wrong."
-STYLE, WIDE = {"description_width": "110px"}, Layout(width="auto")
+CROPPED = " The picture must show the section alone: cut its margins off before."
+REASON = '<div style="line-height: 1.4">{}.</div>'
+STYLE = {"description_width": "130px"}
 
 
 class SectionFields(VBox):
-    """Fields for the choices of `open_section` that a file needs, filled in with usual values where there are any.
-
-    Attributes
-    ----------
-    has_volume : bool
-        Whether one line of several is to be chosen.
-    """
-
-    has_volume = Bool(False)
+    """Fields for the choices of `open_section` that a file needs, filled in with usual values where there are any."""
 
     def __init__(self):
         super().__init__()
@@ -42,22 +43,23 @@ class SectionFields(VBox):
 
     def show(self, info: SectionInfo) -> None:
         """Show the fields that this file needs."""
-        self._info, self.has_volume = info, info.inlines is not None
-        self.fields = {}
-        if self.has_volume:
-            self._ask_line(info)
+        before = self.fields
+        known = before if self._info and self._info.path == info.path else {}
+        self._info, self.fields = info, {}
+        if info.kind == "SEG-Y":
+            self._ask_line()
         if any("z_unit" in need for need in info.needed):
-            self._choose("z_unit", "vertical axis", list(HEIGHTS.items()))
-            self._ask("velocity", "velocity (m/s)", VELOCITY)
-            self._choose("x_unit", "unit of x", list(METRES))
-            self.fields["x_unit"].value = info.x_unit or "m"
-            self.fields["z_unit"].observe(self._take_unit, "value")
+            self._ask_units()
         if any("extent" in need for need in info.needed):
-            self._ask_extent(info)
-        elif info.needed:
-            self._ask_spacing(info)
-        self._note.value = escape(self._assumed())
+            self._ask_extent()
+        elif info.kind == "SEG-Y":
+            self._ask_spacing()
+        for name in set(KEPT) & set(known) & set(self.fields):
+            self.fields[name].value = known[name].value
+        self._take_units()
         self.children = [*self.fields.values(), self._note]
+        for field in before.values():
+            field.close()
 
     def choices(self) -> dict:
         """The keywords of `open_section`.
@@ -68,8 +70,9 @@ class SectionFields(VBox):
             If a field holds no number where it must.
         """
         said = {name: self._value(name) for name, field in self.fields.items() if field.layout.display != "none"}
-        if "line" in said:
-            said[said.pop("line")] = said.pop("number")
+        line, number = said.pop("line", ALL), said.pop("number", None)
+        if line != ALL:
+            said[line] = number
         if "x_min" in said:
             said["extent"] = [said.pop(name) for name in EXTENT]
         return {name: value for name, value in said.items() if value is not None}
@@ -81,55 +84,91 @@ class SectionFields(VBox):
         text = value.strip()
         if name == "number":
             return _line_number(self.fields["line"].value, text)
-        if not text and name == "dx" and name not in self._info.needed:
+        if not text and self._placeholder(name):
             return None  # as the file says
-        return asked.number(name, text)
+        return asked.number(EXTENT.get(name) or LABELS[name], text)
 
-    def _ask_line(self, info):
-        self._choose("line", "line", LINES)
-        self._ask("number", "its number", "")
+    def _ask_line(self):
+        self._choose("line", "line", LINES if self._info.inlines else (ALL, *LINES))
+        self._ask("number", "", "")
         self.fields["line"].observe(self._take_line, "value")
         self._take_line()
 
     def _take_line(self, change=None):
-        kind = self.fields["line"].value
-        if kind == "traces":
-            self.fields["number"].value = f"0 to {self._info.shape[1] - 1}"
-            return
-        first, last, count = self._info.inlines if kind == "inline" else self._info.crosslines
+        kind, number = self.fields["line"].value, self.fields["number"]
+        number.layout.display = "none" if kind == ALL else ""
+        number.description = NUMBER.get(kind, "")
+        if kind in ("inline", "crossline"):
+            number.value = self._middle(kind)
+        elif kind == "traces":
+            number.value = f"0 to {self._info.shape[1] - 1}"
+
+    def _middle(self, kind):
+        """The number of the line in the middle; "" where there is no telling."""
+        lines = {"inline": self._info.inlines, "crossline": self._info.crosslines}[kind]
+        if lines is None:
+            return ""
+        first, last, count = lines
         step = (last - first) / max(count - 1, 1)
-        self.fields["number"].value = str(round(first + count // 2 * step))
+        return str(round(first + count // 2 * step))
 
-    def _take_unit(self, change):
-        self.fields["velocity"].layout.display = "" if change.new in SECONDS else "none"
+    def _ask_units(self):
+        self._choose("z_unit", "vertical axis", list(HEIGHTS.items()))
+        self._ask("velocity", "velocity (m/s)", VELOCITY)
+        self._choose("x_unit", "unit of x", list(METRES))
+        self.fields["x_unit"].value = self._info.x_unit or "m"
+        for name in ("z_unit", "x_unit"):
+            self.fields[name].observe(self._take_units, "value")
 
-    def _ask_extent(self, info):
-        reach = (info.shape[1] - 1) * TRACES_APART, (info.shape[0] - 1) * SAMPLES_APART
-        for name, value in zip(EXTENT, (0, reach[0], 0, reach[1]), strict=True):
-            self._ask(name, f"{name.replace('_', ' ')}imum", value)
+    def _ask_extent(self):
+        samples, traces = self._info.shape
+        reach = (traces - 1) * TRACES_APART, (samples - 1) * SAMPLES_APART
+        for (name, words), value in zip(EXTENT.items(), (0, reach[0], 0, reach[1]), strict=True):
+            self._ask(name, words, value)
 
-    def _ask_spacing(self, info):
-        for name, words, usual in (("dx", "traces apart", TRACES_APART), ("dz", "samples apart", SAMPLES_APART)):
-            if name in info.needed:
-                self._ask(name, words, usual)
-        if "dx" not in self.fields:
-            self._ask("dx", "traces apart", "")
-            self.fields["dx"].placeholder = f"{info.dx:g}, as the file says"
-        if "z0" in info.needed:
-            self._ask("z0", "first sample at", 0)
+    def _ask_spacing(self):
+        for name, usual in (("dx", TRACES_APART), ("dz", SAMPLES_APART), ("z0", 0)):
+            self._ask(name, LABELS[name], usual if name in self._info.needed else "")
 
-    def _assumed(self):
-        """In words, which fields hold no more than a usual value."""
-        assumed = [field.description for name, field in self.fields.items() if name in ("z_unit", "velocity", *EXTENT)]
-        assumed += [self.fields[name].description for name in ("dx", "dz", "z0") if name in self._info.needed]
-        return ASSUMED.format(", ".join(assumed)) if assumed else ""
+    def _take_units(self, change=None):
+        """Name the units behind what they are of, and say what is assumed."""
+        units = {name: self.fields[name].value for name in ("x_unit", "z_unit") if name in self.fields}
+        if units:
+            self.fields["velocity"].layout.display = "" if units["z_unit"] in SECONDS else "none"
+            for name in self.fields.keys() & {*OF_X, *OF_Z}:
+                unit = units["x_unit" if name in OF_X else "z_unit"]
+                self.fields[name].description = f"{EXTENT.get(name) or LABELS[name]} ({unit})"
+                self.fields[name].placeholder = self._placeholder(name)
+        self._note.value = self._said()
+
+    def _placeholder(self, name):
+        """What the file says, in the units that are chosen; "" where it says nothing."""
+        found = None if name in self._info.needed else getattr(self._info, name, None)
+        if found is None:
+            return ""
+        if name == "dx" and self._info.inlines:
+            return "as the file says"  # of a volume, what was measured is of its first line
+        scale = 1 if name == "dx" else PER_MS_OR_M[self.fields["z_unit"].value]
+        return f"{scale * found:g}, as the file says"
+
+    def _said(self):
+        """What is not in the file, as HTML: why not, and which fields hold no more than a usual value."""
+        reasons = "".join(REASON.format(escape(in_labels(reason))) for reason in self._info.reasons)
+        assumed = []
+        if "z_unit" in self.fields:
+            assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
+            assumed += [] if self._info.x_unit else ["unit of x"]
+        assumed += [LABELS[name] for name in ("dx", "dz", "z0") if name in self._info.needed]
+        assumed += [words for name, words in EXTENT.items() if name in self.fields]
+        cropped = CROPPED if self._info.kind == "picture" else ""
+        return reasons + (HINT.format(ASSUMED.format(", ".join(assumed)) + cropped) if assumed else "")
 
     def _ask(self, name, words, value):
         text = value if isinstance(value, str) else f"{value:g}"
         self.fields[name] = Text(text, description=words, style=STYLE, layout=Layout(width="auto"))
 
     def _choose(self, name, words, options):
-        self.fields[name] = Dropdown(options=options, description=words, style=STYLE, layout=WIDE)
+        self.fields[name] = Dropdown(options=options, description=words, style=STYLE, layout=Layout(width="auto"))
 
 
 def _line_number(kind, text):

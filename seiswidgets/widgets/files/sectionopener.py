@@ -4,29 +4,30 @@ from functools import partial
 from html import escape
 from pathlib import Path
 
-from ipywidgets import HTML, Button, FloatProgress, HBox, Layout, VBox
+from ipywidgets import HTML, Button, HBox, Layout, VBox
 
-from seiswidgets.errors import Cancelled, SeiswidgetsError
+from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.opening import open_section, preview
 from seiswidgets.io.sources import FILE, SectionSource
+from seiswidgets.widgets.files.chore import Chore
 from seiswidgets.widgets.files.filefield import FileField
+from seiswidgets.widgets.files.glimpse import glimpse
+from seiswidgets.widgets.files.headerbytes import HeaderBytes
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.sectionfields import SectionFields
-from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.picking.drawing import Drawing
-from seiswidgets.widgets.restoring.worker import Worker
 
 KINDS = ".sgy,.segy,.seg,.png,.jpg,.jpeg,.tif,.tiff,.npy,.npz,.txt,.csv,.asc,.tsv"
 HEADER = (
     "<details><summary>textual header</summary>"
-    '<pre style="line-height: 1.2; overflow: auto; max-height: 240px">{}</pre></details>'
+    '<pre tabindex="0" style="line-height: 1.2; overflow: auto; max-height: 240px">{}</pre></details>'
 )
 KEEP, DROP, BACK = "Keep the picks", "Drop the picks", "Do not open"
 
 
 class SectionOpener(VBox):
-    """A file is chosen, previewed, and opened on a thread; the app then shows its section.
+    """A file is chosen, previewed, and opened, both on a thread; the app then shows its section.
 
     Parameters
     ----------
@@ -35,93 +36,96 @@ class SectionOpener(VBox):
     Attributes
     ----------
     file : FileField
+    header_bytes : HeaderBytes
+        Of SEG-Y.
     fields : SectionFields
+    chore : Chore
+        The preview or the opening that is under way.
     notice : Question
         What is wrong, or asked.
     """
 
     def __init__(self, app):
-        self._app, self._worker = app, Worker()
+        self._app, self._is_known = app, False
         self.file = FileField("section: path of a SEG-Y, picture, NumPy or text file", KINDS)
-        self.fields, self.notice = SectionFields(), Question()
-        self._preview = HTML()
-        self._bar = FloatProgress(min=0, max=1, layout=Layout(width="160px"))
+        self.header_bytes, self.fields, self.notice = HeaderBytes(), SectionFields(), Question()
+        self.chore = Chore(self.notice, lambda: "Opening was cancelled; the section is as it was.")
+        self._preview, self._glimpse, self._page = HTML(), HTML(), VBox()
         self._open = Button(description="Open section", icon="folder-open", layout=Layout(width="auto"), disabled=True)
-        self._cancel = Button(description="Cancel", icon="stop", layout=Layout(width="auto"))
-        self._progress = HBox([self._bar, self._cancel], layout=Layout(display="none"))
-        super().__init__([self.file, self._preview, self.fields, HBox([self._open, self._progress]), self.notice])
-        self.file.observe(self._look, "path")
+        super().__init__([self.file, self._page, HBox([self._open, self.chore]), self.notice])
+        self.file.observe(self._take_path, "path")
         self.file.observe(lambda change: self.notice.alert(change.new), "error")
+        self.header_bytes.observe(self._look, "said")
+        self.chore.observe(self._take_busy, "busy")
         self._open.on_click(lambda _: self.load())
-        self._cancel.on_click(lambda _: self.cancel())
 
     def load(self) -> None:
         """Open the chosen file, as the fields say, in the background."""
         try:
-            choices = self.fields.choices()
+            choices = self._choices()
         except SeiswidgetsError as error:
             self.notice.alert(str(error))
             return
         self.notice.hint("")
-        self._bar.value, self._progress.layout.display, self._open.disabled = 0, "", True
-        self._worker.ask(partial(self._read, self.file.path, choices))
-
-    def cancel(self) -> None:
-        """Give up the opening that is under way."""
-        self._worker.cancel()
-        self._rest("Opening was cancelled; the section is as it was.")
+        self.chore.begin(partial(self._read, self.file.path, choices))
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is being opened; False if that took too long."""
-        return self._worker.wait(timeout)
+        """Wait until nothing is being looked at or opened; False if that took too long."""
+        return self.chore.wait(timeout)
 
     def end(self) -> None:
         """Give up what is under way, and delete what was uploaded."""
-        self._worker.cancel()
+        self.chore.drop()
         self.file.end()
 
-    def _look(self, change):
-        """Show what the file holds."""
-        self._worker.cancel()
-        self.fields.children, self._preview.value = (), ""
-        self._rest("")
-        if not change.new:
+    def _choices(self):
+        choices, header_bytes = self.fields.choices(), self._header_bytes()
+        return choices | ({"header_bytes": header_bytes} if header_bytes else {})
+
+    def _header_bytes(self):
+        """Those that were chosen, None if they are not shown."""
+        return self.header_bytes.chosen() if self.header_bytes in self._page.children else None
+
+    def _take_path(self, change):
+        self._page.children = ()
+        self.header_bytes.rest()
+        self._look()
+
+    def _look(self, change=None):
+        """Show what the file holds, once that is known."""
+        self.notice.hint("")
+        self.chore.drop()
+        self._is_known = False
+        self._take_busy()
+        if not self.file.path:
             return
         try:
-            info = preview(change.new)
+            header_bytes = self._header_bytes()
         except SeiswidgetsError as error:
             self.notice.alert(str(error))
             return
-        self._preview.value = _described(info)
-        self.fields.show(info)
-        self._open.disabled = False
+        self.chore.begin(partial(self._preview_of, self.file.path, header_bytes))
 
-    def _read(self, path, choices, wanted):
-        """Read a section, on the worker's thread."""
-        try:
-            section = open_section(path, **choices, progress=partial(self._tell, wanted))
-        except Cancelled:
-            return
-        except Exception as error:  # noqa: BLE001 - nobody else would hear of it on this thread
-            self._end(wanted, self.notice.alert, in_words(error))
-            return
+    def _preview_of(self, path, header_bytes, tell):
+        info = preview(path, header_bytes=header_bytes)
+        return partial(self._show_preview, info, glimpse(info, header_bytes, tell))
+
+    def _show_preview(self, info, picture):
+        self._preview.value, self._glimpse.value = _described(info), picture
+        self.fields.show(info)
+        self._page.children = [self._preview, self._glimpse, *[self.header_bytes] * (info.kind == "SEG-Y"), self.fields]
+        self._is_known = True
+        self._take_busy()
+
+    def _take_busy(self, change=None):
+        self._open.disabled = self.chore.busy or not self._is_known
+
+    def _read(self, path, choices, tell):
+        """Read a section, on the chore's thread."""
+        section = open_section(path, **choices, progress=tell)
         stays = not self.file.is_uploaded
         source = SectionSource(FILE, str(Path(path).expanduser().absolute()), choices) if stays else None
-        self._end(wanted, self._take, section, source)
-
-    def _tell(self, wanted, share):
-        if wanted():
-            self._bar.value = share
-        return wanted()
-
-    def _end(self, wanted, action, *arguments):
-        if wanted():
-            self._rest("")
-            action(*arguments)
-
-    def _rest(self, text):
-        self._progress.layout.display, self._open.disabled = "none", not self._preview.value
-        self.notice.hint(text)
+        return partial(self._take, section, source)
 
     def _take(self, section, source):
         """Show a section, once it is agreed what becomes of the picks."""
@@ -142,17 +146,18 @@ class SectionOpener(VBox):
             self.notice.alert(str(error))
             return
         samples, traces = section.shape
-        self.notice.hint(f"Opened: {section.name}, {traces} traces of {samples} samples.")
+        self.notice.hint(f"Opened: {section.name}, {traces:,} traces of {samples:,} samples.")
 
 
 def _described(info: SectionInfo) -> str:
     """What a file holds, as HTML; all that comes from the file is escaped."""
     samples, traces = info.shape
-    parts = [f"{info.kind} ({info.format}), {_size(info.size)}", f"{traces} traces of {samples} samples"]
+    parts = [f"{info.kind} ({info.format}), {_size(info.size)}", f"{traces:,} traces of {samples:,} samples"]
     for name, lines in (("inlines", info.inlines), ("crosslines", info.crosslines)):
-        parts += [f"{name} {lines[0]} to {lines[1]} ({lines[2]})"] if lines else []
-    for name, value, unit in (("traces", info.dx, info.x_unit), ("samples", info.dz, "ms or m")):
-        parts += [f"{name} {value:g} {unit} apart"] if value is not None else []
+        parts += [f"{lines[2]:,} {name}, {lines[0]} to {lines[1]}"] if lines else []
+    where = " along the first line" if info.inlines else ""
+    parts += [f"traces {info.dx:g} {info.x_unit} apart{where}"] if info.dx is not None else []
+    parts += [f"samples {info.dz:g} ms (or m) apart"] if info.dz is not None else []
     header = HEADER.format(escape(info.header)) if info.header else ""
     return f'<div style="line-height: 1.4">{escape("; ".join(parts))}.</div>{header}'
 

@@ -9,6 +9,7 @@ from traitlets import Instance
 
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io.autosave import Autosave, Version, found, numbered, set_aside
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.sources import FILE, resolved, section_sha256
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.sessions import drawing_of, session_of
@@ -66,6 +67,8 @@ class SessionBar(VBox):
             self.end()
             return
         path = _checked(path)
+        if path == self.path and self._autosave is not None:
+            return
         with contextlib.suppress(DataError):  # whose remedy may be this path: all that is drawn is saved there
             self.end()
         self._failure.hint("")
@@ -136,9 +139,9 @@ class SessionBar(VBox):
         self._take_edit()
 
     def _take_edit(self, change=None):
-        """Have the work saved, from the first pick on."""
+        """Have the work saved, from the first pick or held point on."""
         app, drawn = self._app, self._app.picker.drawing
-        self._has_work = self._has_work or bool(drawn.picks)
+        self._has_work = self._has_work or bool(drawn.picks) or drawn.fixed is not None
         if self._autosave is not None and self._has_work:
             self._autosave.save(session_of(drawn, app.plan, app.section, self._sha256, app.source, self.path))
 
@@ -224,7 +227,7 @@ class SessionBar(VBox):
 
 
 def _checked(path):
-    path = Path(path).expanduser().absolute()
+    path = user_path(path).absolute()
     if path.suffix.lower() != ".json":
         raise SettingError(f"{path} must end in .json, as a session's file does")
     if not path.parent.is_dir():
@@ -236,4 +239,5 @@ def _words(version: Version) -> str:
     """A version in a line: when it was saved, and what it holds."""
     faults, horizons = len(version.session.faults), len(version.session.horizons)
     picks = f"{faults} fault{'s' * (faults != 1)}, {horizons} horizon{'s' * (horizons != 1)}"
+    picks += ", a point held" * (version.session.fixed is not None)
     return f"{version.saved:%d %b %Y, %H:%M:%S}: {picks} ({version.path.name})"

@@ -80,7 +80,6 @@ class Turning:
                 pane.fit()
             self.source, restoration = source, Restoration(section)
             self._draw(Frame.of(restoration), restoration)
-            self.step_list.z_unit = section.z_unit
             self.solving.take(section)
             self.picker.begin(drawing)
 

@@ -109,8 +109,9 @@ class SolverControls(VBox):
         value = self.spacing or self._middle
         self._quiet = True
         try:
-            middle = math.log10(self._middle)
-            self._slider.min, self._slider.max = middle - math.log10(RANGE), middle + math.log10(RANGE)
+            low, high = (math.log10(self._middle * factor) for factor in (1 / RANGE, RANGE))
+            self._slider.max = max(self._slider.max, high)  # first: the other end must never lie beyond it
+            self._slider.min, self._slider.max = low, high
             self._slider.value = value
         finally:
             self._quiet = False
