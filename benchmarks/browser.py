@@ -111,8 +111,7 @@ def browser():
             yield lambda *cells: Notebook(server, chromium, cells, width=WIDE, height=HIGH)
         finally:
             chromium.close()
-            server.process.terminate()
-            server.process.wait(20)
+            server.end()
 
 
 def first_paint(open_notebook):

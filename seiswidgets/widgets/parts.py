@@ -12,7 +12,7 @@ def close_whole(widget: Widget) -> None:
     Layouts and styles stay: they are small, and some are shared.
     """
     whole = [widget]
-    for part in whole:
+    for part in whole:  # which grows meanwhile
         whole += (one for one in _widgets_in(vars(part)) if one not in whole)
     for part in whole:
         Widget.close(part)
