@@ -170,13 +170,17 @@ class Notebook(Page):
     """
 
     def __init__(self, lab, chromium, **options):
-        super().__init__(chromium, lab.address(secrets.token_hex(4), "lab/workspaces"), **options)
-        self._folder = lab.folder
+        self.lab = lab
+        super().__init__(chromium, lab.address("", "lab"), **options)
+        self._simplify()
+
+    def _simplify(self):
         self.page.wait_for_function("window.jupyterapp?.restored.then(() => true)")
         self.command("application:toggle-left-area")
 
     def open(self, path, *, dark=False, width=1200, height=900):
         """Open a notebook of the server's folder, in JupyterLab's light or dark theme, and run its cells."""
+        self.address = self.lab.address(path)
         self.page.set_viewport_size({"width": width, "height": height})
         self.command("docmanager:open", {"path": path})
         self.page.wait_for_function(READY, polling=50)
@@ -208,14 +212,15 @@ class Notebook(Page):
         self.command("notebook:hide-all-cell-code")
 
     def reload(self):
-        """Load the page anew; the kernel goes on."""
-        self.page.reload()
+        """Load the page anew, with this notebook only; the kernel goes on."""
+        self.page.goto(self.address)
+        self._simplify()
         self.page.wait_for_function(READY, polling=50)
 
     @contextlib.contextmanager
     def kernel_at_work(self):
         """A context in which the kernel executes a cell."""
-        over = self._folder / f"over-{secrets.token_hex(4)}"
+        over = self.lab.folder / f"over-{secrets.token_hex(4)}"
         self.page.evaluate(BEGIN, WORK.format(str(over)))
         self.page.wait_for_function("window.atWork")
         yield

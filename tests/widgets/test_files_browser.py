@@ -125,9 +125,8 @@ def test_a_tab_that_is_closed_and_opened_again_goes_on(app, name):
     draw_fault(app, 0.3)
     until(app, NAMES, ["F1"])
     app.command("docmanager:save")
-    address = app.page.url
     app.page.close()
-    app.visit(address)
+    app.visit(app.address)
     app.page.wait_for_function(READY)
     ready(app)
     assert app.ask(NAMES) == ["F1"]
