@@ -19,7 +19,6 @@ from seiswidgets.widgets.files.filepanel import FilePanel
 from seiswidgets.widgets.files.sessionbar import SessionBar
 from seiswidgets.widgets.files.turning import Turning
 from seiswidgets.widgets.names import Names
-from seiswidgets.widgets.parts import close_whole
 from seiswidgets.widgets.picking.picker import Picker
 from seiswidgets.widgets.restoring.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.restoring.frame import Frame
@@ -167,8 +166,6 @@ class RestorationApp(Turning, VBox):
 
     def close(self) -> None:
         """Stop what is under way, save what is not saved yet, and take the app off the screen."""
-        if self.comm is None:  # closed before, or never made
-            return
         self._restorer.cancel()
         self._moments.cancel()
         if self._files:
@@ -176,7 +173,7 @@ class RestorationApp(Turning, VBox):
         try:
             self.keeper.end()
         finally:
-            close_whole(self)
+            super().close()
 
     def _make_parts(self, section, picks, height):
         self.panes = LinkedPanes(section, height=height, deformation=0.5)
@@ -267,7 +264,8 @@ class RestorationApp(Turning, VBox):
         self.picker.redraw()
         self.status.hint("")
         self._set_outdated(False)
-        self.histogram.show(frame.ratio_before.ratio.ravel() if frame.restoration.stages else [])
+        ratio = frame.ratio_before.ratio.ravel() if frame.restoration.stages else []
+        self.histogram.show(ratio)
 
     def _show_whole(self, frame, restoration):
         self.panes.show(frame)

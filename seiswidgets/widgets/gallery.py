@@ -14,7 +14,6 @@ from seiswidgets.geology.synthetic import Synthetic
 from seiswidgets.io import datasets
 from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.messages import HINT, TROUBLE
-from seiswidgets.widgets.parts import close_whole
 from seiswidgets.widgets.ties import tie
 
 WAIT = "Looking for this section; the first time it may have to be fetched."
@@ -92,7 +91,7 @@ class Gallery(VBox):
     def close(self) -> None:
         """Stop what is under way, and take all off the screen."""
         self._leave()
-        close_whole(self)
+        super().close()
 
     def _repr_mimebundle_(self, **kwargs):
         """Beside the gallery itself the app's picture, for readers without a kernel."""

@@ -9,7 +9,7 @@ from ipywidgets import Layout
 class Names(anywidget.AnyWidget):
     """Shows nothing; in the box that it is a child of, each control gets a name, that of its label or its tooltip."""
 
-    _esm = Path(__file__).with_name("names.js").read_text("utf-8")
+    _esm = Path(__file__).with_name("names.js")
 
     def __init__(self):
         super().__init__(layout=Layout(display="none"))

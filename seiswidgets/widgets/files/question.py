@@ -51,8 +51,5 @@ class Question(VBox):
         return button
 
     def _say(self, look, text, controls=()):
-        given = self.answers.values()
         self.text, self._line.value, self._answers.children = text, look.format(escape(text)), controls
-        for button in given:
-            button.close()
         self.layout.display = "" if text else "none"

@@ -43,8 +43,7 @@ class SectionFields(VBox):
 
     def show(self, info: SectionInfo) -> None:
         """Show the fields that this file needs."""
-        before = self.fields
-        known = before if self._info and self._info.path == info.path else {}
+        before = self.fields if self._info and self._info.path == info.path else {}
         self._info, self.fields = info, {}
         if info.kind == "SEG-Y":
             self._ask_line()
@@ -54,12 +53,10 @@ class SectionFields(VBox):
             self._ask_extent()
         elif info.kind == "SEG-Y":
             self._ask_spacing()
-        for name in set(KEPT) & set(known) & set(self.fields):
-            self.fields[name].value = known[name].value
+        for name in set(KEPT) & set(before) & set(self.fields):
+            self.fields[name].value = before[name].value
         self._take_units()
         self.children = [*self.fields.values(), self._note]
-        for field in before.values():
-            field.close()
 
     def choices(self) -> dict:
         """The keywords of `open_section`.

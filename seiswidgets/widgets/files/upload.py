@@ -28,7 +28,7 @@ class Upload(anywidget.AnyWidget):
         Why a file was not taken.
     """
 
-    _esm = Path(__file__).with_name("upload.js").read_text("utf-8")
+    _esm = Path(__file__).with_name("upload.js")
 
     accept = Unicode().tag(sync=True)
     path = Instance(Path, allow_none=True)

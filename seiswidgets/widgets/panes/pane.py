@@ -89,7 +89,6 @@ class SectionPane(VBox):
         self._navigation, self._mesh, self._will_move = Navigation(), None, False
         self._gesture_listeners, self._hover_listeners = [], []
         self._picture = Picture(_placed())
-        self._hidden = self._picture.hidden  # to be closed with the pane; see `close_whole`
         self._picture.canvas.add_class("seiswidgets-plot")
         self.layer = PointerLayer(hotkeys=list(KEYS), layout=_placed())
         self._grid = GridBox([self._picture.canvas, self.layer], layout=_grid_layout(480))

@@ -29,8 +29,6 @@ class Picture:
         Of the overlay, 0 to 1.
     is_moving : bool
         Whether the section is drawn coarsely, as another follows soon.
-    hidden : list of Canvas
-        Those of its textures.
     """
 
     def __init__(self, layout: Layout):
@@ -39,8 +37,7 @@ class Picture:
         self._section, self._overlay = None, None
         self._view, self._refined = None, None  # as last drawn, and as last painted finely
         self.is_moving, self._is_seen = False, False
-        self.hidden = []
-        self._textures = self._whole, self._detail, self._glimpse, self._map = [Texture(self.hidden) for _ in range(4)]
+        self._whole, self._detail, self._glimpse, self._map = self._textures = [Texture() for _ in range(4)]
 
     def take(self, section: Section, is_moving: bool = False) -> None:
         """Another section is to be drawn next, coarsely if it moves."""

@@ -114,7 +114,7 @@ class PointerLayer(anywidget.AnyWidget):
     """
 
     _esm = joined(*(LAYER / f"{name}.js" for name in SCRIPTS))
-    _css = (LAYER / "layer.css").read_text("utf-8")  # given the file itself, anywidget lets no layer go that was made
+    _css = LAYER / "layer.css"
 
     axes = Dict().tag(sync=True)
     window = List().tag(sync=True)

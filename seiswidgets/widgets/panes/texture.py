@@ -17,11 +17,6 @@ class Texture:
 
     One canvas serves picture after picture: making and closing canvases costs the browser more than drawing on them.
 
-    Parameters
-    ----------
-    canvases : list
-        Where the canvas is added when it is made, to be closed some time.
-
     Attributes
     ----------
     size : tuple (width, height)
@@ -30,8 +25,8 @@ class Texture:
         Encoded; empty if there is none.
     """
 
-    def __init__(self, canvases: list):
-        self._canvases, self._canvas, self._window = canvases, None, None
+    def __init__(self):
+        self._canvas, self._window = None, None
         self.size, self.picture = (0, 0), b""
 
     def paint(self, levels: np.ndarray, palette: np.ndarray, window: Window, quick: bool = False) -> None:
@@ -43,9 +38,7 @@ class Texture:
     def send(self) -> None:
         """Send the picture, if there is one, to a page that may know nothing yet."""
         if self.picture:
-            if self._canvas is None:
-                self._canvas = Canvas(width=self.size[0], height=self.size[1])
-                self._canvases.append(self._canvas)
+            self._canvas = self._canvas or Canvas(width=self.size[0], height=self.size[1])
             resize(self._canvas, *self.size)
             put(self._canvas, self.picture)
 

@@ -51,7 +51,7 @@ class DeformationHistogram(anywidget.AnyWidget):
     """
 
     _esm = joined(LAYER / "svg.js", HERE / "histogram.js")
-    _css = (HERE / "histogram.css").read_text("utf-8")
+    _css = HERE / "histogram.css"
 
     bars = Dict().tag(sync=True)
     summary = Unicode(EMPTY).tag(sync=True)

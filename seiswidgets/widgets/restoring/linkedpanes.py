@@ -93,9 +93,8 @@ class LinkedPanes(VBox):
         return ("Today", self.original), ("Restored", self.restored)
 
     def _tie_panes(self):
-        both = (self.original, self.restored), (self.restored, self.original)
-        self._links = [jslink((one.layer, "carried"), (other.layer, "linked")) for one, other in both]
-        for one, other in both:
+        for one, other in ((self.original, self.restored), (self.restored, self.original)):
+            jslink((one.layer, "carried"), (other.layer, "linked"))
             one.on_hover(lambda point, pane=one: self._read(point, pane))
             one.observe(lambda change, pane=other: self._zoom_too(pane, change.new), "view")
         self.original.observe(self._share, SHARED)
