@@ -17,15 +17,20 @@ PATIENCE = 5.0  # seconds that what is about to end may take
 
 
 @contextmanager
-def nothing_left(*folders):
+def nothing_left(*folders, only_files=False):
     """A context that fails if it leaves a thread, a process, an open file, or anything new in one of these folders.
 
-    What there was before may go on. What is about to end is waited for.
+    What there was before may go on. What is about to end is waited for. With ``only_files`` it looks at the folders
+    alone.
     """
-    before = set(_held(folders))
+
+    def here():
+        return {*_files(folders), *(() if only_files else _running())}
+
+    before = here()
     yield
     end = time.monotonic() + PATIENCE
-    while left := set(_held(folders)) - before:
+    while left := here() - before:
         if time.monotonic() > end:
             pytest.fail(f"left behind: {', '.join(sorted(map(_words, left)))}", pytrace=False)
         gc.collect()  # closes what nobody can reach any more, and warns of it
@@ -47,11 +52,15 @@ def ended(processes, patience=60.0):
         pytest.fail(f"did not end: {alive}", pytrace=False)
 
 
-def _held(folders):
-    """Pairs of a kind, and what is there of it."""
+def _running():
+    """What is at work or open, in pairs of its kind and what it is."""
     yield from (("thread", thread) for thread in threading.enumerate())
     yield from (("process", number) for number in _children())
     yield from (("open file", opened) for opened in _open_files())
+
+
+def _files(folders):
+    """What lies in folders, in the same way."""
     for folder in folders:
         yield from (("file", os.path.join(folder, name)) for name in _names(folder) if not NOT_OF_TESTS.fullmatch(name))
 

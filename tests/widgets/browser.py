@@ -1,5 +1,6 @@
 """A JupyterLab, and a Chromium that looks at it."""
 
+import ast
 import contextlib
 import json
 import os
@@ -230,10 +231,10 @@ class Notebook(Page):
 
     def ask(self, code):
         """What an expression is in the kernel, by way of the notebook's own kernel connection."""
-        text, error = self.page.evaluate(ASK, f"import json; print(json.dumps({code}))")
-        if error:
-            raise RuntimeError(error)
-        return json.loads(text)
+        told = self.page.evaluate(ASK, f"__import__('json').dumps({code})")
+        if told["status"] != "ok":
+            raise RuntimeError("\n".join(told["traceback"]))
+        return json.loads(ast.literal_eval(told["data"]["text/plain"]))
 
     def holds(self, code):
         """Whether an expression is true in the kernel; not while it cannot be evaluated, as when a list is empty."""
@@ -272,14 +273,9 @@ while not pathlib.Path({!r}).exists():
 
 ASK = """async (code) => {
   const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
-  const future = kernel.requestExecute({ code, store_history: false });
-  let [text, error] = ["", ""];
-  future.onIOPub = (message) => {
-    if (message.header.msg_type === "stream") text += message.content.text;
-    if (message.header.msg_type === "error") error += message.content.traceback.join("\\n");
-  };
-  await future.done;
-  return [text, error];
+  const asked = { code: "", user_expressions: { told: code }, store_history: false };
+  const { content } = await kernel.requestExecute(asked).done; // the reply: what is printed, a busy server may drop
+  return content.user_expressions.told;
 }"""
 
 
