@@ -45,7 +45,7 @@ def test_names_are_text_in_a_page(tmp_path):
     page.feed((tmp_path / "report.html").read_text("utf-8"))
     assert page.tags <= {"html", "meta", "title", "style", "h1", "h2", "p", "table", "tr", "th", "td"}
     assert f"unfault {NAUGHTY}" in page.text
-    assert "data: <b>us</b>" in page.text
+    assert "data: '<b>us</b>'" in page.text
 
 
 def test_nothing_restored_is_said(tmp_path):
