@@ -73,8 +73,11 @@ def _children():
 
 
 def _open_files():
-    """Numbers of files, pipes and sockets with what they are; but for those that a library keeps, as its fonts."""
-    for number in _names(f"{PROCESS}/fd"):
+    """Numbers of files, pipes and sockets with what they are; but for those that a library keeps, as its fonts.
+
+    Pytest turns the standard ones to and fro.
+    """
+    for number in {*_names(f"{PROCESS}/fd")} - {"0", "1", "2"}:
         try:
             target = os.readlink(f"{PROCESS}/fd/{number}")
         except OSError:  # it was that of this list

@@ -166,6 +166,8 @@ class RestorationApp(Turning, VBox):
 
     def close(self) -> None:
         """Stop what is under way, save what is not saved yet, and take the app off the screen."""
+        if self.comm is None:  # closed before, or never made
+            return
         self._restorer.cancel()
         self._moments.cancel()
         if self._files:

@@ -228,8 +228,8 @@ def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk
     full_disk.append(True)
     draw_fault(app)
     wait_for(lambda: app.keeper._failure.text)
-    full_disk.clear()
     monkeypatch.setattr(app.keeper._autosave, "_written", lambda session: DataError("still full"))
+    full_disk.clear()
     app.session_path = path.with_name("other.json")
     assert not app.keeper._failure.text
     wait_for(lambda: names(path.with_name("other.json")) == ["F1"])
