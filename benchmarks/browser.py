@@ -108,7 +108,13 @@ def browser():
         server = Server(Path(folder))
         try:
             server.wait()
-            yield lambda *cells: Notebook(server, chromium, cells, width=WIDE, height=HIGH)
+
+            def open_notebook(*cells):
+                opened = Notebook(server, chromium)
+                opened.open(server.write(cells), width=WIDE, height=HIGH)
+                return opened
+
+            yield open_notebook
         finally:
             chromium.close()
             server.end()
