@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_array, kron
+from scipy.sparse import csr_array, eye_array, kron
 
 from seiswidgets.core.meanvalue import mean_value_matrix
 from seiswidgets.core.mesh import Mesh, triangle_areas
@@ -43,7 +43,7 @@ class MeanValue:
         return (self.rows @ vertices).ravel()
 
     def jacobian(self, vertices):
-        return kron(self.rows, np.eye(2), format="csr")
+        return kron(self.rows, eye_array(2), format="csr")
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +174,7 @@ class Stitch:
         return (self.rows @ vertices).ravel()
 
     def jacobian(self, vertices):
-        return kron(self.rows, np.eye(2), format="csr")
+        return kron(self.rows, eye_array(2), format="csr")
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,16 @@ from seiswidgets.geology.section import SECONDS, Section
 Progress = Callable[[float], bool | None]
 OF_SEGY = ("inline", "crossline", "traces", "header_bytes")
 OF_AXES = ("dx", "dz", "x0", "z0")
+DAMAGED = (  # what other libraries' readers raise at a damaged file, some of them strange
+    ArithmeticError,
+    EOFError,
+    LookupError,
+    OSError,
+    RuntimeError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+)
 MOST_BYTES = 2**30  # of the amplitudes of one section
 KINDS = {  # of those choices that nothing else checks
     **dict.fromkeys(("x_unit", "z_unit", "name", "credit"), (str, "a text")),

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+HEIGHT = "z_unit or velocity"  # what may be needed: either will do
+
 
 @dataclass(frozen=True)
 class SectionInfo:
@@ -45,3 +47,11 @@ class SectionInfo:
     crosslines: tuple[int, int, int] | None = None
     header: str = ""
     reasons: tuple[str, ...] = ()
+
+    def middle(self, name: str) -> int | None:
+        """The number of the inline or the crossline in the middle of a volume; None where there is no telling."""
+        lines = {"inline": self.inlines, "crossline": self.crosslines}[name]
+        if lines is None:
+            return None
+        first, last, count = lines
+        return round(first + count // 2 * (last - first) / max(count - 1, 1))

@@ -14,27 +14,22 @@ from numpy.lib import format as npy
 
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.section import METRES, Section
-from seiswidgets.io.choices import OF_AXES, OF_SEGY, Choices, Progress, checked_shape, checked_size, section_of
+from seiswidgets.io.choices import (
+    DAMAGED,
+    OF_AXES,
+    OF_SEGY,
+    Choices,
+    Progress,
+    checked_shape,
+    checked_size,
+    section_of,
+)
 from seiswidgets.io.document import shortened
-from seiswidgets.io.info import SectionInfo
+from seiswidgets.io.info import HEIGHT, SectionInfo
 
 STORED = ("dx", "dz", "x0", "z0", "x_unit", "z_unit", "velocity", "name", "credit")  # beside the amplitude, in .npz
 MOST_TEXT, MOST_ROW = 2**28, 2**24  # bytes of a text file, and characters of its first row
-DAMAGED = (  # what NumPy and Python's own readers raise
-    ArithmeticError,
-    EOFError,
-    LookupError,
-    OSError,
-    RuntimeError,
-    SyntaxError,
-    TypeError,
-    ValueError,
-    tokenize.TokenError,
-    lzma.LZMAError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
-AXES, HEIGHT = "extent, or dx and dz", "z_unit or velocity"  # what a file does not say
+AXES = "extent, or dx and dz"  # that a file does not say
 ANEW = "write it anew"
 PLAIN = (
     "write its numbers with a decimal point, parted by blanks, commas or semicolons, nan where there is none and # "
@@ -119,7 +114,7 @@ def _honest(path, remedy):
             yield
     except SeiswidgetsError:
         raise
-    except DAMAGED as error:
+    except (*DAMAGED, tokenize.TokenError, lzma.LZMAError, zipfile.BadZipFile, zlib.error) as error:
         raise DataError(f"{path} is damaged, or no matrix of numbers: {shortened(str(error))}; {remedy}") from error
 
 

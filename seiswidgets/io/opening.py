@@ -1,6 +1,7 @@
 """A section from a file of any kind that we know."""
 
 from collections.abc import Mapping
+from contextlib import contextmanager
 from os import PathLike
 
 from seiswidgets.errors import DataError
@@ -115,7 +116,9 @@ def open_section(
         traces=traces,
         header_bytes=header_bytes,
     )
-    section = _read(path, lambda reader, _: reader(path, choices, progress))
+    with _readable(path):
+        open_it, _ = READERS[_kind(path)]
+        section = open_it(path, choices, progress)
     tell(progress, 1.0)
     return section
 
@@ -135,13 +138,28 @@ def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = No
         As for ``open_section``.
     """
     path = existing_file(path)
-    choices = Choices(header_bytes=header_bytes)
-    return _read(path, lambda _, preview: preview(path, choices))
+    with _readable(path):
+        _, preview_it = READERS[_kind(path)]
+        return preview_it(path, Choices(header_bytes=header_bytes))
 
 
-def _read(path, act):
+def kind_of(path: str | PathLike) -> str:
+    """The kind of a file: "SEG-Y", "picture", "array" or "text".
+
+    Raises
+    ------
+    DataError
+        If the file is missing, or of no kind that we know.
+    """
+    path = existing_file(path)
+    with _readable(path):
+        return _kind(path)
+
+
+@contextmanager
+def _readable(path):
     try:
-        return act(*READERS[_kind(path)])
+        yield
     except OSError as error:
         if isinstance(error, DataError):
             raise

@@ -10,24 +10,13 @@ from PIL import ExifTags, Image, ImageOps
 
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.section import Section
-from seiswidgets.io.choices import OF_SEGY, Choices, Progress, section_of
-from seiswidgets.io.info import SectionInfo
+from seiswidgets.io.choices import DAMAGED, OF_SEGY, Choices, Progress, section_of
+from seiswidgets.io.info import HEIGHT, SectionInfo
 
 MOST_PIXELS = 40_000_000
 DEEP = ("I;16", "I;16B")
 MIDDLE = {"L": 127.5, **dict.fromkeys(DEEP, 32767.5)}  # grey halfway from black to white
 AS_THEY_ARE = ("I", "F")
-DAMAGED = (  # what Pillow raises
-    ArithmeticError,
-    EOFError,
-    LookupError,
-    OSError,
-    RuntimeError,
-    SyntaxError,
-    TypeError,
-    ValueError,
-    struct.error,
-)
 PHOTOMETRIC, WHITE_IS_ZERO = 262, 0  # a tag of TIFF: Pillow heeds it in all modes but the deep ones
 
 
@@ -62,7 +51,7 @@ def preview_picture(path: Path, choices: Choices) -> SectionInfo:
             format=f"{image.format}, mode {image.mode}{_pages(image)}",
             size=path.stat().st_size,
             shape=_shape(image),
-            needed=("extent", "z_unit or velocity"),
+            needed=("extent", HEIGHT),
         )
 
 
@@ -79,7 +68,7 @@ def _picture(path):
         raise
     except Image.DecompressionBombError as error:
         raise DataError(f"{path} is too large a picture: {error}; save a smaller one") from error
-    except DAMAGED as error:
+    except (*DAMAGED, struct.error) as error:
         raise DataError(
             f"{path} is a damaged picture, or one of an unusual kind: {error}; save it anew as PNG"
         ) from error

@@ -8,7 +8,7 @@ import numpy as np
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.choices import Choices, Progress, checked_size, section_of, tell
-from seiswidgets.io.info import SectionInfo
+from seiswidgets.io.info import HEIGHT, SectionInfo
 from seiswidgets.io.optional import required
 from seiswidgets.io.segylayout import layout
 from seiswidgets.io.segyline import TraceHeaders, checked_bytes, course, first_line, line, lines_of_volume, spacing
@@ -142,7 +142,7 @@ def preview_segy(path: Path, choices: Choices) -> SectionInfo:
         needed=(
             *(["inline, crossline or traces"] if lines else []),
             *(name for name, value in (("dx", dx), ("dz", dz), ("z0", z0)) if value is None),
-            "z_unit or velocity",
+            HEIGHT,
         ),
         dx=dx,
         dz=dz,

@@ -1,47 +1,41 @@
 """The restoration app: draw, restore, look."""
 
-import logging
-from functools import cached_property
 from os import PathLike
 
 import numpy as np
 from ipywidgets import GridBox, Layout, VBox
-from traitlets import Any, Bool, Instance, Tuple, dlink, link, observe, validate
+from traitlets import Any, Bool, Instance, Tuple, link, observe, validate
 
-from seiswidgets.errors import SeiswidgetsError, SettingError
+from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan, Task
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.weights import Weights
 from seiswidgets.io.sources import SectionSource
-from seiswidgets.widgets.files.filepanel import FilePanel
 from seiswidgets.widgets.files.sessionbar import SessionBar
+from seiswidgets.widgets.files.tabbed import Tabbed
 from seiswidgets.widgets.files.turning import Turning
+from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.picking.picker import Picker
-from seiswidgets.widgets.restoring.controls import DisplayControls, SolverControls
+from seiswidgets.widgets.restoring.controls import SolverControls
 from seiswidgets.widgets.restoring.frame import Frame
 from seiswidgets.widgets.restoring.histogram import DeformationHistogram
 from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
 from seiswidgets.widgets.restoring.moments import Moments
-from seiswidgets.widgets.restoring.pages import Pages
 from seiswidgets.widgets.restoring.reports import Reports
 from seiswidgets.widgets.restoring.restorer import REST, Restorer
 from seiswidgets.widgets.restoring.statusbar import StatusBar
-from seiswidgets.widgets.restoring.steplist import StepList
 from seiswidgets.widgets.restoring.timeline import Timeline
-from seiswidgets.widgets.restoring.weightsliders import WeightSliders
 
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
 CHANGED = "Something has changed since: press Restore."
 SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
 
-_log = logging.getLogger(__name__)
 
-
-class RestorationApp(Turning, VBox):
+class RestorationApp(Tabbed, Turning, VBox):
     """Draw faults and horizons on a section, restore it, and look at what that took.
 
     On the left is the section of today, on the right the restored one; lines can be drawn in either. While something
@@ -125,29 +119,6 @@ class RestorationApp(Turning, VBox):
         """What is done, and with which choices."""
         return Plan(self.steps, self.weights, self.solving.solver, self.solving.spacing)
 
-    @cached_property
-    def sliders(self) -> WeightSliders:
-        """The tab Weights."""
-        sliders = WeightSliders()
-        link((self, "weights"), (sliders, "weights"))
-        return sliders
-
-    @cached_property
-    def step_list(self) -> StepList:
-        """The tab Steps."""
-        step_list = StepList()
-        dlink((self.panes.original, "section"), (step_list, "z_unit"), lambda section: section.z_unit)
-        link((self, "interpretation"), (step_list, "interpretation"))
-        link((self, "steps"), (step_list, "steps"))
-        return step_list
-
-    @property
-    def files(self) -> FilePanel:
-        """The tab File."""
-        if self._files is None:
-            self._files = FilePanel(self)
-        return self._files
-
     def restore(self) -> None:
         """Restore on the full mesh now, in the background; what is wrong is said below the panes."""
         self._pressed = True
@@ -161,8 +132,7 @@ class RestorationApp(Turning, VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all that is under way is done, as a script may want; False if that took too long."""
-        parts = (self._files, self.keeper, self._restorer, self._moments)
-        return all(part.wait(timeout) for part in parts if part)
+        return all(part.wait(timeout) for part in (*self._made_files, self.keeper, self._restorer, self._moments))
 
     def close(self) -> None:
         """Stop what is under way, save what is not saved yet, and take the app off the screen."""
@@ -170,8 +140,8 @@ class RestorationApp(Turning, VBox):
             return
         self._restorer.cancel()
         self._moments.cancel()
-        if self._files:
-            self._files.end()
+        for panel in self._made_files:
+            panel.end()
         try:
             self.keeper.end()
         finally:
@@ -186,22 +156,12 @@ class RestorationApp(Turning, VBox):
         self.timeline = Timeline()
         self.status = StatusBar(self.restore, self.cancel)
         self.reports = Reports()
-        self._files = None
         self.keeper = SessionBar(self)
 
     def _placed(self):
         """The parts in their places."""
-        tabs = Pages(
-            Picks=lambda: self.picker.list,
-            Weights=lambda: self.sliders,
-            Steps=lambda: self.step_list,
-            Solver=lambda: self.solving,
-            Display=lambda: DisplayControls(self.panes),
-            Report=lambda: self.reports,
-            File=lambda: self.files,
-        )
         below = GridBox(
-            [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), tabs],
+            [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), self._tabs()],
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
@@ -262,7 +222,7 @@ class RestorationApp(Turning, VBox):
             self.panes.show(frame)
         else:
             self._show_whole(frame, restoration)
-        self.picker.complain({})
+        self.picker.complain("")
         self.picker.redraw()
         self.status.hint("")
         self._set_outdated(False)
@@ -292,14 +252,9 @@ class RestorationApp(Turning, VBox):
 
     def _fail(self, error):
         """Say what is wrong: loudly, if it was asked for; as a hint, while picks are still being made."""
-        if not isinstance(error, SeiswidgetsError):
-            _log.error("the restoration failed", exc_info=error)
-            error = f"this should not have happened: {type(error).__name__}: {error}"
-        text = str(error)
+        text = in_words(error)
         (self.status.alert if self._pressed else self.status.hint)(text)
-        places = {pick.name: text.find(repr(pick.name)) for pick in self.picker.drawing.picks}
-        named = sorted((place, name) for name, place in places.items() if place >= 0)
-        self.picker.complain({name: text for _, name in named[:1]})  # beside the one that it is about
+        self.picker.complain(text)
         self._set_outdated(True)
 
     def _set_outdated(self, outdated):

@@ -8,9 +8,8 @@ import pytest
 from tests.widgets.browser import IGNORED, ROOT, RUN, keep_picture
 from tests.widgets.byhand import PICTURES, draw_faulted_fold, is_painted, is_restored
 
-# What Voila's page itself takes from elsewhere, an extension of Jupyter Notebook, where that is installed too, and what
-# anywidget says of a widget that was closed again before the page had made it.
-FOREIGN = re.compile("https://cdn|@jupyter-notebook/lab-extension|Failed to initialize model")
+# What Voila's page itself takes from elsewhere, and an extension of Jupyter Notebook, where that is installed too.
+FOREIGN = re.compile("https://cdn|@jupyter-notebook/lab-extension")
 AXES_SEEN = """() => [...document.querySelectorAll(".seiswidgets-layer .label")].every((label) => {
   const { left, width, top, height } = label.getBoundingClientRect();
   label.style.pointerEvents = "auto";

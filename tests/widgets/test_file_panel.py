@@ -543,6 +543,15 @@ def choose_results(results, *endings):
         box.value = ending in endings
 
 
+def export_reports(app, folder):
+    """Begin to export both reports into a folder."""
+    results = app.files.results
+    results.folder.value = str(folder)
+    choose_results(results, "report.json", "report.html")
+    results.export()
+    return results
+
+
 def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path, monkeypatch):
     begun, go_on = threading.Event(), threading.Event()
     kind, write = resultfiles.WRITERS["report.json"]
@@ -553,10 +562,7 @@ def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path
         write(result, path)
 
     monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, slow))
-    results = restored.files.results
-    results.folder.value = str(tmp_path)
-    choose_results(results, "report.json", "report.html")
-    results.export()
+    results = export_reports(restored, tmp_path)
     assert begun.wait(LONG)
     assert results.notice.text == "Writing faulted fold-report.json ..."
     assert results._export.disabled
@@ -577,10 +583,7 @@ def test_one_file_that_cannot_be_written_keeps_no_other_from_it(restored, tmp_pa
         raise DataError(f"{path} cannot be written: give x_unit=")
 
     monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, fail))
-    results = restored.files.results
-    results.folder.value = str(tmp_path)
-    choose_results(results, "report.json", "report.html")
-    results.export()
+    results = export_reports(restored, tmp_path)
     assert results.wait(LONG)
     assert "report.json cannot be written: give “unit of x”. Wrote into" in results.notice.text
     assert [path.name for path in results.written] == ["faulted fold-report.html"]

@@ -45,9 +45,9 @@ def test_a_file_is_seen_as_it_will_open(tmp_path, shape, kind):
     assert picture[:, int(middle) + 1 :].min() > 245
 
 
-def test_of_a_volume_the_first_inline_is_seen(tmp_path):
+def test_of_a_volume_the_inline_in_the_middle_is_seen(tmp_path):
     picture, said = seen(volume(tmp_path / "volume.sgy"))
-    assert said == "Inline 10"
+    assert said == "Inline 11"
     assert picture.shape[1] == 5
 
 

@@ -120,7 +120,8 @@ def test_what_is_wrong_with_a_pick_is_said_beside_it(drawn):
     drawn.refresh()
     assert name.value == "F1"
     assert message.layout.display == "none"
-    drawn.complain({"H1": f"horizon {NASTY} is odd"})
+    drawn.complain(f"horizon 'H1' is odd, and {NASTY} too, as is fault 'F1'")
+    assert rows(drawn, "fault")[0][-1].layout.display == "none"  # the first that is named is the one it is about
     *_, message = rows(drawn, "horizon")[0]
     assert "&lt;img" in message.value
     assert NASTY not in message.value

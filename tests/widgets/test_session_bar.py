@@ -125,7 +125,7 @@ def test_a_point_held_is_work_too(new_app, path):
     app.close()
     assert found(path)[0].session.fixed == pytest.approx((1000.0, 500.0))
     again = new_app(session=path)
-    assert ": 0 faults, 0 horizons, a point held (work.00000" in again.keeper.versions.options[0][0]
+    assert ": 0 faults and 0 horizons, a point held (work.00000" in again.keeper.versions.options[0][0]
     choose(again, "Open")
     assert again.fixed == app.fixed
 
@@ -163,7 +163,7 @@ def test_earlier_work_is_offered_and_opened(new_app, path, section):
     before = {file: file.read_bytes() for file in path.parent.iterdir()}
     again = new_app(session=path)
     assert "holds earlier work" in again.keeper.notice.text
-    assert ": 1 fault, 0 horizons (work.00000" in again.keeper.versions.options[0][0]
+    assert ": 1 fault and 0 horizons (work.00000" in again.keeper.versions.options[0][0]
     draw_fault(again, OTHER)
     again.keeper.end()
     assert {file: file.read_bytes() for file in path.parent.iterdir()} == before
@@ -339,6 +339,12 @@ def test_versions_that_cannot_be_opened_are_not_written_over_unasked(new_app, pa
     ]
 
 
+def keep_here(app):
+    """Press the button in the tab File."""
+    _, button = app.files.session.children[0].children
+    button.click()
+
+
 def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     app = new_app()
     with pytest.raises(SettingError, match=r"must end in \.json"):
@@ -348,10 +354,10 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     with pytest.raises(DataError, match="there is no folder"):
         app.session_path = tmp_path / "none" / "work.json"
     app.files.session.path.value = "work.txt"
-    app.files.session._keep()
+    keep_here(app)
     assert "must end in .json" in app.files.session.notice.text
     app.files.session.path.value = str(tmp_path / "work.json")
-    app.files.session._keep()
+    keep_here(app)
     assert app.session_path == tmp_path / "work.json"
     assert f"Every edit is saved in {tmp_path / 'work.json'}" in app.files.session.notice.text
     draw_fault(app)
@@ -359,11 +365,11 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     assert app.keeper.notice.answers == {}  # about its own work it does not ask
     app.session_path = None
     assert app.session_path is None
-    app.files.session._keep()
+    keep_here(app)
     assert "choose above the section" in app.files.session.notice.text
     choose(app, "Start anew")
     assert app.files.session.notice.text == ""
     app.files.session.path.value = ""
-    app.files.session._keep()
+    keep_here(app)
     assert app.session_path is None
     assert "Nothing is saved" in app.files.session.notice.text

@@ -8,7 +8,6 @@ from ipywidgets import Button, FloatProgress, HBox, Layout
 from traitlets import Bool
 
 from seiswidgets.errors import Cancelled
-from seiswidgets.widgets.files.labels import in_labels
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.restoring.worker import Worker
@@ -77,7 +76,7 @@ class Chore(HBox):
         except Cancelled:
             self._end(wanted, lambda: self._notice.hint(self._given_up()))
         except Exception as error:  # noqa: BLE001 - nobody else would hear of it on this thread
-            self._end(wanted, partial(self._notice.alert, in_labels(in_words(error))))
+            self._end(wanted, partial(self._notice.alert, in_words(error)))
 
     def _tell(self, stop, wanted, share):
         if wanted():

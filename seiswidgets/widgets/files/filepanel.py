@@ -5,7 +5,6 @@ from pathlib import Path
 
 from ipywidgets import HTML, Button, HBox, Layout, Text, VBox
 
-from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.widgets.files.picksfiles import PicksFiles
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.resultfiles import ResultFiles
@@ -70,20 +69,23 @@ class SessionFile(VBox):
         self.path = Text(placeholder="folder/name.json; without, nothing is saved by itself", layout=layout)
         keep = Button(description="Keep work here", icon="save", layout=Layout(width="auto"))
         super().__init__([HBox([self.path, keep]), self.notice])
-        keep.on_click(lambda _: self._keep())
+        keep.on_click(lambda _: self.notice.attempt(self.keep))
         app.keeper.observe(lambda change: self._take_path(), "path")
         app.keeper.notice.observe(lambda change: self.notice.hint(""), "text")  # as when its question was answered
         self._take_path()
 
-    def _keep(self):
-        try:
-            self._app.session_path = self.path.value.strip() or None
-        except SeiswidgetsError as error:
-            self.notice.alert(str(error))
-        else:
-            asked = self._app.keeper.notice.answers
-            kept = ASKED if asked else KEPT if self._app.session_path else UNKEPT
-            self.notice.hint(kept.format(self._app.session_path))
+    def keep(self) -> None:
+        """Keep the work in the file of that path, and say so.
+
+        Raises
+        ------
+        DataError, SettingError
+            If that cannot be.
+        """
+        self._app.session_path = self.path.value.strip() or None
+        asked = self._app.keeper.notice.answers
+        kept = ASKED if asked else KEPT if self._app.session_path else UNKEPT
+        self.notice.hint(kept.format(self._app.session_path))
 
     def _take_path(self):
         if self._app.keeper.path is not None:

@@ -21,7 +21,7 @@ FRAME = '<img alt="{0}" title="{0}" style="max-width: 100%; display: block" src=
 def glimpse(info: SectionInfo, header_bytes: Mapping[str, int] | None, progress: Progress) -> str:
     """HTML of a picture, in greys without axes; empty where reading takes long, or something is wrong with the file.
 
-    Of SEG-Y some traces of all are read, or a volume's first inline.
+    Of SEG-Y some traces of all are read, or a volume's middle inline, which is also offered first to be opened.
 
     Raises
     ------
@@ -48,6 +48,7 @@ def _some_of(info, header_bytes):
     if info.kind != "SEG-Y":
         return "All of it", {}
     if info.inlines:
-        return f"Inline {info.inlines[0]}", {"inline": info.inlines[0], "header_bytes": header_bytes}
+        inline = info.middle("inline")
+        return f"Inline {inline}", {"inline": inline, "header_bytes": header_bytes}
     traces = info.shape[1]
     return "All of it", {"traces": range(0, traces, max(1, traces // WIDEST))}

@@ -1,6 +1,9 @@
-"""Errors in the words of the panel: where they name a keyword of a function, the label of its field."""
+"""What the panel says: errors with the labels of its fields in the place of a function's keywords, and counts."""
 
 import re
+
+from seiswidgets.geology.picks import Interpretation
+from seiswidgets.io.session import Session
 
 LABELS = {
     "along": "x comes from",
@@ -24,3 +27,9 @@ KEYWORD = re.compile(rf"(?<![\w./-])({'|'.join(LABELS)})=(True\b|(?=[\s,.;:)]|$)
 def in_labels(text: str) -> str:
     """A message with “traces apart” where it says dx=, and so on."""
     return KEYWORD.sub(lambda match: f"“{LABELS[match[1]]}”" + " " * text.startswith("{", match.end()), text)
+
+
+def counted(picks: Interpretation | Session) -> str:
+    """How many faults and horizons there are."""
+    faults, horizons = len(picks.faults), len(picks.horizons)
+    return f"{faults} fault{'s' * (faults != 1)} and {horizons} horizon{'s' * (horizons != 1)}"

@@ -6,16 +6,22 @@ import numpy as np
 
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io.choices import OF_SEGY
+from seiswidgets.io.opening import kind_of
 from seiswidgets.io.segy import line_on_map
 from seiswidgets.io.sources import FILE, SectionSource
 
-SUFFIXES = (".sgy", ".segy", ".seg")
 EXAMPLE = "605000 6073000; 629000 6074000"
 
 
 def of_segy(source: SectionSource | None) -> dict | None:
-    """Which line of the SEG-Y file the section is, as `open_section` takes it; None if it comes from no such file."""
-    if source is None or source.kind != FILE or Path(source.name).suffix.lower() not in SUFFIXES:
+    """Which line of the SEG-Y file the section is, as `open_section` takes it; None if it comes from no such file.
+
+    Raises
+    ------
+    DataError
+        If the section's file is there no more.
+    """
+    if source is None or source.kind != FILE or kind_of(source.name) != "SEG-Y":
         return None
     return {name: value for name, value in source.keywords.items() if name in OF_SEGY}
 
@@ -26,7 +32,7 @@ def segy_line(source: SectionSource | None) -> np.ndarray:
     Raises
     ------
     DataError
-        If the section comes from no SEG-Y file, or one whose positions were not used.
+        If the section comes from no SEG-Y file, or one whose positions were not used; and as for `of_segy`.
     """
     line = of_segy(source)
     if line is None:

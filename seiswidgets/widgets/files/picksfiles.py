@@ -5,7 +5,7 @@ from functools import partial
 
 from ipywidgets import Button, Checkbox, Dropdown, HBox, Layout, Text, VBox
 
-from seiswidgets.errors import SeiswidgetsError, SettingError
+from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import METRES, SECONDS
 from seiswidgets.io.paths import user_path
@@ -13,7 +13,7 @@ from seiswidgets.io.picks import read_picks, write_picks
 from seiswidgets.io.picks.files import EXPORTS
 from seiswidgets.widgets.files.chore import Chore
 from seiswidgets.widgets.files.filefield import FileField
-from seiswidgets.widgets.files.labels import LABELS, in_labels
+from seiswidgets.widgets.files.labels import LABELS, counted
 from seiswidgets.widgets.files.linemap import points_of, segy_line
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.panes.canvas import LOCK
@@ -78,8 +78,8 @@ class PicksFiles(VBox):
         self._take_along()
         self.file.observe(lambda change: self.notice.alert(change.new), "error")
         self.chore.observe(lambda change: setattr(self._read, "disabled", change.new), "busy")
-        self._read.on_click(lambda _: self._said(self.read))
-        write.on_click(lambda _: self._said(self.write))
+        self._read.on_click(lambda _: self.notice.attempt(self.read))
+        write.on_click(lambda _: self.notice.attempt(self.write))
 
     def read(self) -> None:
         """Take the picks of the file, in the background.
@@ -108,14 +108,14 @@ class PicksFiles(VBox):
         """
         path = user_path(self.out.value.strip())
         if path.is_file() and not replace:
-            again = partial(self._said, partial(self.write, replace=True))
+            again = partial(self.notice.attempt, partial(self.write, replace=True))
             self.notice.ask(f"{path} exists already.", {REPLACE: again, LEAVE: lambda: None})
             return
         picks = self._app.interpretation
         write_picks(picks, path, self._app.section)
         left_out = len(self._app.picker.drawing.picks) - len(picks.faults) - len(picks.horizons)
         these = f" {left_out} picks that cannot be used were left out." if left_out else ""
-        self.notice.hint(f"Wrote {_counted(picks)} to {path.absolute()}.{these}")
+        self.notice.hint(f"Wrote {counted(picks)} to {path.absolute()}.{these}")
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is being read; False if that took too long."""
@@ -146,14 +146,8 @@ class PicksFiles(VBox):
         with LOCK:
             take = _added if self.keep.value else Drawing.with_interpretation
             picker.take(take(picker.drawing, picks))
-        came = f"Read {_counted(picks)}; Undo brings back what was there."
+        came = f"Read {counted(picks)}; Undo brings back what was there."
         self.notice.hint(" ".join([came, *(f"{text}." for text in warned)]))
-
-    def _said(self, action):
-        try:
-            action()
-        except SeiswidgetsError as error:
-            self.notice.alert(in_labels(str(error)))
 
     def _take_format(self, change=None):
         """Ask what the format does not say."""
@@ -174,11 +168,6 @@ def _added(drawing, picks):
             add = drawing.with_pieces if pick.name in drawing.names(kind) else drawing.with_pick
             drawing = add(kind, pick.name, pieces)
     return drawing
-
-
-def _counted(picks):
-    faults, horizons = len(picks.faults), len(picks.horizons)
-    return f"{faults} fault{'s' * (faults != 1)} and {horizons} horizon{'s' * (horizons != 1)}"
 
 
 def _offer(chooser, options):

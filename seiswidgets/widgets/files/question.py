@@ -6,6 +6,8 @@ from html import escape
 from ipywidgets import HTML, Button, HBox, Layout, VBox, Widget
 from traitlets import Unicode
 
+from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.widgets.files.labels import in_labels
 from seiswidgets.widgets.messages import HINT, TROUBLE
 
 
@@ -38,8 +40,15 @@ class Question(VBox):
         self._say(HINT, text)
 
     def alert(self, text: str) -> None:
-        """Say what is wrong, in place of the question."""
-        self._say(TROUBLE, text)
+        """Say what is wrong, in place of the question and in the words of the panel."""
+        self._say(TROUBLE, in_labels(text))
+
+    def attempt(self, action: Callable[[], None]) -> None:
+        """Do something; if that cannot be done, say why."""
+        try:
+            action()
+        except SeiswidgetsError as error:
+            self.alert(str(error))
 
     def _button(self, name, action):
         def act(_):

@@ -20,7 +20,6 @@ from seiswidgets.io.writing import written
 from seiswidgets.io.xarrays import displacement
 from seiswidgets.widgets.files.chore import Chore
 from seiswidgets.widgets.files.filenames import file_name
-from seiswidgets.widgets.files.labels import in_labels
 from seiswidgets.widgets.files.linemap import of_segy
 from seiswidgets.widgets.files.question import Question
 
@@ -69,7 +68,7 @@ class ResultFiles(VBox):
             for ending, (words, _) in WRITERS.items()
         }
         self._export = Button(description="Export results", icon="download", layout=Layout(width="auto"))
-        self._export.on_click(lambda _: self._said(self.export))
+        self._export.on_click(lambda _: self.notice.attempt(self.export))
         self.chore.observe(lambda change: setattr(self._export, "disabled", change.new), "busy")
         columns = Layout(grid_template_columns="repeat(auto-fit, minmax(180px, 1fr))")
         for field in (self.folder, self.stem):
@@ -97,7 +96,7 @@ class ResultFiles(VBox):
         paths = {ending: folder / f"{stem}-{ending}" for ending in chosen}
         there = [path.name for path in paths.values() if path.exists()]
         if there and not replace:
-            again = partial(self._said, partial(self.export, replace=True))
+            again = partial(self.notice.attempt, partial(self.export, replace=True))
             self.notice.ask(f"There are already: {', '.join(there)}.", {REPLACE: again, LEAVE: lambda: None})
             return
         self.written = ()
@@ -123,7 +122,7 @@ class ResultFiles(VBox):
                 WRITERS[ending][1](result, path)
                 self.written = (*self.written, path)
             except SeiswidgetsError as error:
-                trouble.append(in_labels(str(error)))
+                trouble.append(str(error))
         if trouble:
             return partial(self.notice.alert, f"{'. '.join(trouble)}. {self._done()}".strip())
         return lambda: self.notice.hint(self._done())
@@ -140,12 +139,6 @@ class ResultFiles(VBox):
         if given != Path(given).name or given in (".", ".."):
             raise SettingError(f"the name must be a name without folders, but is {given!r}; give those as the folder")
         return given or file_name(self._app.section.name, "section")
-
-    def _said(self, action):
-        try:
-            action()
-        except SeiswidgetsError as error:
-            self.notice.alert(str(error))
 
 
 def _made(folder):

@@ -96,18 +96,10 @@ class SectionFields(VBox):
         number.layout.display = "none" if kind == ALL else ""
         number.description = NUMBER.get(kind, "")
         if kind in ("inline", "crossline"):
-            number.value = self._middle(kind)
+            middle = self._info.middle(kind)
+            number.value = "" if middle is None else str(middle)
         elif kind == "traces":
             number.value = f"0 to {self._info.shape[1] - 1}"
-
-    def _middle(self, kind):
-        """The number of the line in the middle; "" where there is no telling."""
-        lines = {"inline": self._info.inlines, "crossline": self._info.crosslines}[kind]
-        if lines is None:
-            return ""
-        first, last, count = lines
-        step = (last - first) / max(count - 1, 1)
-        return str(round(first + count // 2 * step))
 
     def _ask_units(self):
         self._choose("z_unit", "vertical axis", list(HEIGHTS.items()))

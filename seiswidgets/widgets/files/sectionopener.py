@@ -6,7 +6,6 @@ from pathlib import Path
 
 from ipywidgets import HTML, Button, HBox, Layout, VBox
 
-from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.opening import open_section, preview
 from seiswidgets.io.sources import FILE, SectionSource
@@ -61,13 +60,8 @@ class SectionOpener(VBox):
 
     def load(self) -> None:
         """Open the chosen file, as the fields say, in the background."""
-        try:
-            choices = self._choices()
-        except SeiswidgetsError as error:
-            self.notice.alert(str(error))
-            return
         self.notice.hint("")
-        self.chore.begin(partial(self._read, self.file.path, choices))
+        self.notice.attempt(lambda: self.chore.begin(partial(self._read, self.file.path, self._choices())))
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is being looked at or opened; False if that took too long."""
@@ -97,14 +91,10 @@ class SectionOpener(VBox):
         self.chore.drop()
         self._is_known = False
         self._take_busy()
-        if not self.file.path:
-            return
-        try:
-            header_bytes = self._header_bytes()
-        except SeiswidgetsError as error:
-            self.notice.alert(str(error))
-            return
-        self.chore.begin(partial(self._preview_of, self.file.path, header_bytes))
+        if self.file.path:
+            self.notice.attempt(
+                lambda: self.chore.begin(partial(self._preview_of, self.file.path, self._header_bytes()))
+            )
 
     def _preview_of(self, path, header_bytes, tell):
         info = preview(path, header_bytes=header_bytes)
@@ -130,7 +120,7 @@ class SectionOpener(VBox):
     def _take(self, section, source):
         """Show a section, once it is agreed what becomes of the picks."""
         drawn = self._app.picker.drawing
-        keep, drop = partial(self._show, section, drawn, source), partial(self._show, section, Drawing(), source)
+        keep, drop = (partial(self._show, section, picks, source) for picks in (drawn, Drawing()))
         if not drawn.picks:
             drop()
             return
@@ -140,13 +130,9 @@ class SectionOpener(VBox):
         self.notice.ask(text, {**answers, DROP: drop, BACK: lambda: None})
 
     def _show(self, section, drawing, source):
-        try:
-            self._app.begin(section, drawing, source=source)
-        except SeiswidgetsError as error:
-            self.notice.alert(str(error))
-            return
         samples, traces = section.shape
         self.notice.hint(f"Opened: {section.name}, {traces:,} traces of {samples:,} samples.")
+        self.notice.attempt(partial(self._app.begin, section, drawing, source=source))
 
 
 def _described(info: SectionInfo) -> str:

@@ -11,6 +11,7 @@ from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io.autosave import Autosave, Version, found, numbered, set_aside
 from seiswidgets.io.paths import user_path
 from seiswidgets.io.sources import FILE, resolved, section_sha256
+from seiswidgets.widgets.files.labels import counted
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.sessions import drawing_of, session_of
 from seiswidgets.widgets.messages import in_words
@@ -237,7 +238,5 @@ def _checked(path):
 
 def _words(version: Version) -> str:
     """A version in a line: when it was saved, and what it holds."""
-    faults, horizons = len(version.session.faults), len(version.session.horizons)
-    picks = f"{faults} fault{'s' * (faults != 1)}, {horizons} horizon{'s' * (horizons != 1)}"
-    picks += ", a point held" * (version.session.fixed is not None)
-    return f"{version.saved:%d %b %Y, %H:%M:%S}: {picks} ({version.path.name})"
+    held = ", a point held" * (version.session.fixed is not None)
+    return f"{version.saved:%d %b %Y, %H:%M:%S}: {counted(version.session)}{held} ({version.path.name})"

@@ -115,9 +115,11 @@ class Picker(VBox):
         self.pen.edit(drawing)
         self.refresh()
 
-    def complain(self, complaints: dict[str, str]) -> None:
-        """Say beside picks, by their names, what is wrong with them."""
-        self._complaints = dict(complaints)
+    def complain(self, text: str) -> None:
+        """Say beside a pick what is wrong: the first that the text names is the one that it is about."""
+        places = {pick.name: text.find(repr(pick.name)) for pick in self.drawing.picks}
+        named = sorted((place, name) for name, place in places.items() if place >= 0)
+        self._complaints = {name: text for _, name in named[:1]}
         self.list.update(self._wrong())
 
     def refresh(self) -> None:
