@@ -61,8 +61,10 @@ class AppScreen:
         return self.page.locator(f"button:has-text('{name}'), button[title*='{name}']").first
 
     def tab(self, name):
-        """Open one of the tabs."""
+        """Open one of the tabs, and wait for its page, which is made when it is first looked at."""
         self.page.get_by_role("tab", name=name, exact=True).click()
+        shown = self.page.get_by_role("tabpanel").locator("button, input, select, table, .widget-html-content")
+        shown.locator("visible=true").first.wait_for()
 
     def pictures(self, suits=lambda pictures: True):
         """Size, opacity and sum of the pixels of all panes' canvases, once they have not changed for a while."""

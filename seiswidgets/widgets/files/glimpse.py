@@ -15,7 +15,10 @@ from seiswidgets.widgets.panes.colours import Colouring, clip_limit, resampled
 WIDEST, HIGHEST = 360, 160  # pixels
 CLIP = 99  # percentile of the amplitudes at which the greys end
 LARGEST = 32 * 2**20  # bytes of a file that must be read whole for its picture
-FRAME = '<img alt="{0}" title="{0}" style="max-width: 100%; display: block" src="data:image/png;base64,{1}">'
+FRAME = (
+    f'<img alt="{{0}}" title="{{0}}" width="{WIDEST}" height="{HIGHEST}" style="max-width: 100%; display: block" '
+    'src="data:image/png;base64,{1}">'
+)
 
 
 def glimpse(info: SectionInfo, header_bytes: Mapping[str, int] | None, progress: Progress) -> str:
