@@ -11,7 +11,8 @@ import pytest
 from tests.leftovers import nothing_left
 
 ROOT = Path(__file__).parents[1]
-CODE = [folder for name in ("seiswidgets", "tests", "notebooks") for folder, *_ in os.walk(ROOT / name)]
+PLACES = [Path(folder) for name in ("seiswidgets", "tests", "notebooks") for folder, *_ in os.walk(ROOT / name)]
+CODE = [folder for folder in PLACES if folder.name != "__pycache__"]
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,11 +1,8 @@
 """A restoration app in a notebook, and a hand that works it by mouse and keyboard."""
 
-import time
-
 import numpy as np
-import pytest
 
-from tests.widgets.browser import keep_picture
+from tests.widgets.browser import keep_picture, settled
 
 EMPTY = """
 import numpy as np
@@ -45,16 +42,10 @@ class AppScreen:
     """
 
     def __init__(self, opened):
-        self.opened, self.page, self.ask = opened, opened.page, opened.ask
+        self.opened, self.page = opened, opened.page
+        self.ask, self.until, self.becomes = opened.ask, opened.until, opened.becomes
         self.plots = self.page.locator(".seiswidgets-layer .plot")
         self.pictures()
-
-    def until(self, code, seconds=30):
-        """Wait until an expression is true in the kernel."""
-        end = time.monotonic() + seconds
-        while not self.opened.holds(code):
-            assert time.monotonic() < end, f"never true: {code}"
-            time.sleep(0.05)
 
     def button(self, name):
         """Of the toolbar or the status bar, by its text, or what it says of itself."""
@@ -69,21 +60,15 @@ class AppScreen:
     def pictures(self, suits=lambda pictures: True):
         """Size, opacity and sum of the pixels of all panes' canvases, once they have not changed for a while."""
         self.plots.nth(1).wait_for()
-        last = None
-        for _ in range(100):
-            pictures = self.page.eval_on_selector_all("canvas.seiswidgets-plot", PIXELS)
-            if pictures == last and all(one[2] == 255 for one in pictures) and suits(pictures):
-                return pictures
-            last = pictures
-            time.sleep(0.2)
-        pytest.fail(f"the pictures did not settle: {last}")
+        return settled(
+            lambda: self.page.eval_on_selector_all("canvas.seiswidgets-plot", PIXELS),
+            lambda pictures: all(one[2] == 255 for one in pictures) and suits(pictures),
+        )
 
     def lines(self, number=0):
-        """What the layer of a pane has drawn, without the cursors."""
-        plot = self.plots.nth(number)
-        return [
-            plot.locator(f".{name}").first.evaluate("one => one.outerHTML") for name in ("mesh", "strokes", "marks")
-        ]
+        """What the layer of a pane has drawn, without the cursors, once that has not changed for a while."""
+        parts = [self.plots.nth(number).locator(f".{name}").first for name in ("mesh", "strokes", "marks")]
+        return settled(lambda: [part.evaluate("one => one.outerHTML") for part in parts])
 
     def paths(self, number=0):
         """The SVG paths of all lines in a pane."""
@@ -138,18 +123,11 @@ class AppScreen:
         for key in keys:
             self.page.keyboard.press(key)
 
-    def becomes(self, code, value, atol=1e-9):
-        """Wait until an expression of numbers has a value in the kernel."""
+    def nears(self, code, value, atol=1e-9):
+        """Wait until an expression of numbers is about a value in the kernel."""
         self.until(
             f"np.shape({code}) == {np.shape(value)} and np.allclose({code}, {np.asarray(value).tolist()}, 0, {atol})"
         )
-
-    def shows(self, code, value, seconds=30):
-        """Wait until an expression has just this value in the kernel."""
-        end = time.monotonic() + seconds
-        while (now := self.ask(code)) != value:
-            assert time.monotonic() < end, f"{code} is {now}, not {value}"
-            time.sleep(0.05)
 
     def shoot(self, name):
         """A screenshot, to be looked at."""

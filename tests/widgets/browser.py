@@ -16,6 +16,7 @@ from pathlib import Path
 
 import nbformat
 import pytest
+from playwright.sync_api import expect
 
 from tests.leftovers import ended, family
 
@@ -36,6 +37,7 @@ IGNORED = re.compile(
     "|reading 'schema'"  # Notebook 7.6 says so of a notebook without any widget too
 )
 START, RUN, COMMAND = 60, 60, 180  # seconds: the server's start, anything in the page, all cells of a notebook
+expect.set_options(timeout=RUN * 1000)
 
 
 class Server:
@@ -236,11 +238,18 @@ class Notebook(Page):
             raise RuntimeError("\n".join(told["traceback"]))
         return json.loads(ast.literal_eval(told["data"]["text/plain"]))
 
-    def holds(self, code):
-        """Whether an expression is true in the kernel; not while it cannot be evaluated, as when a list is empty."""
-        with contextlib.suppress(RuntimeError):
-            return self.ask(f"bool({code})")
-        return False
+    def until(self, code):
+        """Wait until an expression is true in the kernel, where it may not even be evaluated at first."""
+
+        def holds():
+            with contextlib.suppress(RuntimeError):
+                return self.ask(f"bool({code})")
+
+        awaited(holds, bool, code)
+
+    def becomes(self, code, value):
+        """Wait until an expression has just this value in the kernel."""
+        awaited(lambda: self.ask(code), lambda found: found == value, f"{code} == {value}")
 
 
 READY = """() => {
@@ -277,6 +286,29 @@ ASK = """async (code) => {
   const { content } = await kernel.requestExecute(asked).done; // the reply: what is printed, a busy server may drop
   return content.user_expressions.told;
 }"""
+
+
+def awaited(read, suits, wanted):
+    """What a function gives as soon as that suits: a page shows things some frames after its kernel knows them."""
+    end = time.monotonic() + RUN
+    while not suits(found := read()):
+        if time.monotonic() > end:
+            pytest.fail(f"never came to {wanted}, but to {found}")
+        time.sleep(0.05)
+    return found
+
+
+def settled(read, suits=lambda found: True):
+    """What a function gives once that suits and has not changed for a while."""
+    last = None
+
+    def is_settled(found):
+        nonlocal last
+        last, before = found, last
+        time.sleep(0.2)
+        return before == found and suits(found)
+
+    return awaited(read, is_settled, "rest")
 
 
 def keep_picture(shown, name):

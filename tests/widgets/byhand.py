@@ -12,10 +12,13 @@ PAINTED = """() => {
     return width > 1 && canvas.getContext("2d").getImageData(width / 2, height / 2, 1, 1).data[3] === 255;
   });
 }"""
-PICTURES = """() => [...document.querySelectorAll("canvas.seiswidgets-plot")].map((canvas) => {
-  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  return data.reduce((sum, value) => (sum * 31 + value) >>> 0, 0);
-})"""
+ALIKE = """(alike) => {
+  const [one, other] = [...document.querySelectorAll("canvas.seiswidgets-plot")].map((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.reduce((sum, value) => (sum * 31 + value) >>> 0, 0);
+  });
+  return (one === other) === alike;
+}"""
 
 TICKS = """() => {
   const ticks = [...document.querySelector(".seiswidgets-layer").querySelectorAll(".tick")].map((tick) => {
@@ -45,9 +48,15 @@ def draw_faulted_fold(page):
     _choose(page, "Look")
 
 
+def is_of_today(page):
+    """Wait until the restored pane shows the section as it is today."""
+    page.wait_for_function(ALIKE, arg=True)
+
+
 def is_restored(page):
-    """Wait until the app says so."""
+    """Wait until the app says so, and the restored pane shows something else than the section of today."""
     page.locator(".widget-label").get_by_text("restored", exact=True).wait_for()
+    page.wait_for_function(ALIKE, arg=False)
 
 
 def _choose(page, tool):

@@ -3,6 +3,7 @@
 from importlib import resources
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.widgets.byhand import is_painted, is_restored
 
@@ -46,7 +47,7 @@ def test_controls_are_found_by_the_names_that_are_seen_beside_them(notebook):
     opened.page.get_by_role("slider", name="stitch").wait_for()
     opened.page.get_by_role("tab", name="Picks").click()
     fault = opened.page.get_by_role("textbox", name="name of this fault")
-    assert fault.input_value() == "F1"
+    expect(fault).to_have_value("F1")
     opened.ask("setattr(gallery, 'choice', 'graben')")
     opened.page.get_by_text("Two faults, and between them").wait_for()
-    fault.nth(1).wait_for()
+    expect(fault).to_have_count(2)

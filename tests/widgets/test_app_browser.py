@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from tests.widgets.appscreen import FEW, PICKS, UNDER_WAY
 
@@ -41,7 +42,7 @@ def test_from_an_empty_app_to_a_restored_section_by_mouse_alone(open_app):
     screen.button("Restore").click()
     is_restored(screen)
     assert screen.pictures()[1][3] != restored[3]
-    assert screen.page.locator(".labels .name").all_text_contents() == 2 * ["F1", "H1"]
+    expect(screen.page.locator(".labels .name")).to_have_text(2 * ["F1", "H1"])
 
 
 def by_tab(screen, what, key="Tab"):
@@ -64,7 +65,7 @@ def steer(screen, target):
         for modifier, stride in (("Shift+", 10 * strides[axis]), ("", strides[axis]), ("Control+", 1)):
             count, left = divmod(left, stride)
             screen.press(*[modifier + key] * int(count))
-    screen.becomes("pen.state.cursor", target, (cell / 2 + 1e-6).max())
+    screen.nears("pen.state.cursor", target, (cell / 2 + 1e-6).max())
 
 
 def by_keys(screen, *points):
@@ -103,12 +104,12 @@ def undone(screen, before):
     screen.until(f"{PICKS} != {before}")
     after = screen.ask(PICKS)
     screen.press("Control+z")
-    screen.shows(PICKS, before)
+    screen.becomes(PICKS, before)
     screen.press("Control+y")
-    screen.shows(PICKS, after)
+    screen.becomes(PICKS, after)
     screen.press("Control+Shift+Z")  # there is nothing more to do again
     screen.press("Control+z")
-    screen.shows(PICKS, before)
+    screen.becomes(PICKS, before)
 
 
 def test_vertices_are_added_dragged_inserted_removed_and_nudged(open_app):
@@ -137,39 +138,39 @@ def test_vertices_are_added_dragged_inserted_removed_and_nudged(open_app):
     screen.page.mouse.dblclick(*screen.pixels([place[-1]])[0])
     undone(screen, before)
     screen.press("Escape")
-    screen.shows(PICKS, before)
+    screen.becomes(PICKS, before)
 
     screen.drag(fault[1], fault[1] + np.array([150, 0]))
-    screen.becomes("pen.drawing.picks[0].pieces[0][1]", fault[1] + np.array([150, 0]), pixel.max())
+    screen.nears("pen.drawing.picks[0].pieces[0][1]", fault[1] + np.array([150, 0]), pixel.max())
     undone(screen, before)
 
     screen.button("Horizon").click()
     screen.drag(line[2], line[2] + [0, 200], drop=False)
     screen.until(f"{PICKS} != {before}")
     screen.press("Escape")
-    screen.shows(PICKS, before)
+    screen.becomes(PICKS, before)
     screen.page.mouse.up()
-    screen.shows(PICKS, before)
+    screen.becomes(PICKS, before)
 
     middle = line[1:3].mean(axis=0)
     screen.click(middle)
-    screen.becomes("pen.drawing.picks[1].pieces[0][2]", middle, pixel.max())
+    screen.nears("pen.drawing.picks[1].pieces[0][2]", middle, pixel.max())
     undone(screen, before)
     for remove in (("Control",), ()):
         screen.click(line[2], modifiers=remove)
         if not remove:
             screen.press("Delete")
-        screen.becomes("pen.drawing.picks[1].pieces[0]", np.delete(line, 2, axis=0))
+        screen.nears("pen.drawing.picks[1].pieces[0]", np.delete(line, 2, axis=0))
         undone(screen, before)
     screen.click(line[1])
     screen.press("Insert")
-    screen.becomes("pen.drawing.picks[1].pieces[0][2]", middle)
+    screen.nears("pen.drawing.picks[1].pieces[0][2]", middle)
     undone(screen, before)
     screen.click(line[1])
     screen.press("PageDown", "ArrowDown", "Shift+ArrowRight")
-    screen.becomes("pen.drawing.picks[1].pieces[0][2]", line[2] + [125, 5])
+    screen.nears("pen.drawing.picks[1].pieces[0][2]", line[2] + [125, 5])
     screen.press("Control+z", "Control+z")
-    screen.shows(PICKS, before)
+    screen.becomes(PICKS, before)
 
 
 def test_cut_offs_snapping_following_and_holding(open_app):
@@ -178,7 +179,7 @@ def test_cut_offs_snapping_following_and_holding(open_app):
     fault = screen.points("pen.drawing.picks[0].pieces[0]")
     marks = screen.points("[mark.inside for mark in pen.cutoffs()]")
     assert len(marks) == 2
-    assert screen.plots.first.locator(".cutoff .number").all_text_contents() == ["1", "1"]
+    expect(screen.plots.first.locator(".cutoff .number")).to_have_text(["1", "1"])
     screen.button("Horizon").click()
     aim = fault[1:3].mean(axis=0)
     screen.drag(marks[0], aim + [60, 0])
@@ -213,8 +214,8 @@ def test_cut_offs_snapping_following_and_holding(open_app):
 
     screen.button("Hold").click()
     (at,) = screen.click((3000, 700))
-    screen.becomes("app.fixed or []", (3000, 700), pixel)
-    assert screen.plots.first.locator(".held .pin").count() == 1
+    screen.nears("app.fixed or []", (3000, 700), pixel)
+    expect(screen.plots.first.locator(".held .pin")).to_have_count(1)
     screen.press("Control+z")
     screen.until("app.fixed is None")
     screen.press("Control+y")
@@ -236,7 +237,7 @@ def test_zoom_and_pan_while_a_line_is_under_way(open_app):
         window = screen.ask("pen.view.window")
         by(*arguments)
         screen.until(f"pen.view.window != tuple({window})")
-        screen.shows(UNDER_WAY, line)
+        screen.becomes(UNDER_WAY, line)
 
     mouse, (x, y) = screen.page.mouse, screen.pixels([(900, 400)])[0]
     mouse.move(x, y)
@@ -260,7 +261,7 @@ def test_zoom_and_pan_while_a_line_is_under_way(open_app):
     screen.page.wait_for_function(BAND, arg=[*(start - [box["x"], box["y"]]), x - box["x"], y - box["y"]])
     point = screen.points(f"pen.view.to_section([{x - box['x']}, {y - box['y']}])")
     mouse.dblclick(x, y)
-    screen.becomes("app.interpretation.horizons[-1].pieces[0]", [*line, point], 0.01)
+    screen.nears("app.interpretation.horizons[-1].pieces[0]", [*line, point], 0.01)
     screen.press("0")
     screen.until("pen.view.is_fitted")
 

@@ -1,6 +1,7 @@
 """The app outside JupyterLab, and under fingers: in Notebook 7, in Voila, on a screen that is touched."""
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.widgets.appscreen import EMPTY, SHOWN
 from tests.widgets.byhand import is_painted
@@ -15,10 +16,8 @@ def fault_places(page):
 
 def is_drawn(page):
     """The kernel has made a fault of it: both panes show it, and the list has it."""
-    page.locator(".seiswidgets-layer .name").nth(1).wait_for(state="attached")
-    assert page.locator(".seiswidgets-layer .name").all_text_contents() == ["F1", "F1"]
-    page.locator("input[title='name of this fault']").wait_for()
-    assert page.locator("input[title='name of this fault']").input_value() == "F1"
+    expect(page.locator(".seiswidgets-layer .name")).to_have_text(["F1", "F1"])
+    expect(page.locator("input[title='name of this fault']")).to_have_value("F1")
 
 
 @pytest.mark.parametrize("place", ["voila/render", "notebooks"])

@@ -5,8 +5,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from tests.widgets.appscreen import FEW, RESTORED
+from tests.widgets.browser import awaited
 from tests.widgets.test_histogram_browser import bar
 
 PLACES = "[(500.0, 400.0), (1500.0, 900.0), (2600.0, 1600.0), (3500.0, 700.0)]"
@@ -74,19 +76,22 @@ def test_a_line_drawn_in_the_restored_pane_is_where_to_original_says(open_app):
     screen.click(*ends, number=1)
     last = f"np.allclose(pen.drawing.under_way.points[-1], {there[-1].tolist()}, 0, 1)"
     screen.until(f"pen.drawing.under_way and {last}")
-    under_way = away(screen, there, before)
+    is_drawn_through(screen, there, before)
     screen.press("Enter")
     screen.becomes("len(app.interpretation.horizons)", 4)
-    finished = away(screen, there, before)
-    assert max(under_way.max(), finished.max()) < 1
+    is_drawn_through(screen, there, before)
 
 
-def away(screen, points, before):
-    """How far points are from what the original's pane shows besides what was there before, in css pixels."""
+def is_drawn_through(screen, points, before):
+    """Wait until the original's pane shows lines, besides those before, within a css pixel of points."""
     box = screen.plots.first.bounding_box()
     wanted = screen.pixels(points) - [box["x"], box["y"]]
-    new = [line for path in screen.paths() if path not in before for line in polylines(path)]
-    return np.min([distances(wanted, line) for line in new], axis=0)
+
+    def away():
+        new = [line for path in screen.paths() if path not in before for line in polylines(path)]
+        return np.min([distances(wanted, line) for line in new], axis=0).max() if new else np.inf
+
+    awaited(away, lambda pixels: pixels < 1, "less than a pixel")
 
 
 def polylines(path):
@@ -153,12 +158,11 @@ def test_twenty_quick_moves_of_a_slider_draw_the_newest_and_nothing_older_after_
 
 def is_newest(screen, handle):
     """What is drawn at the end is of the slider's place, and nothing was drawn after something newer."""
-    screen.until("shown and app.wait(30) and not app.panes.shown.moving")
     at = float(handle.get_attribute("aria-valuenow"))
-    screen.becomes("np.log10(app.weights.mean_value)", at, 0.051)  # the slider says it to a tenth
+    screen.nears("np.log10(app.weights.mean_value)", at, 0.051)  # the slider says it to a tenth
+    screen.until("app.wait(30) and shown[-1] == app.weights.mean_value and not app.panes.shown.moving")
     shown = screen.ask("shown")
     assert shown == sorted(shown)
-    assert shown[-1] == screen.ask("app.weights.mean_value")
     drawn = screen.pictures()
     screen.ask("show(type(app.panes.shown).of(app.restoration))")  # once more
     assert screen.pictures() == drawn
@@ -206,10 +210,9 @@ def test_play_brush_and_hover(open_app):
     (at,) = screen.pixels([(1500.0, 900.0)])
     screen.page.mouse.move(*at)
     mark = screen.page.locator(".chart .mark")
-    mark.wait_for(state="attached")
     ratio = screen.ask("float(app.restoration.area_ratio_at([(1500.0, 900.0)])[0])")
     number = int(np.searchsorted(screen.ask("app.histogram.bars['edges']"), ratio)) - 1
-    assert mark.get_attribute("data-bar") == str(number)
+    expect(mark).to_have_attribute("data-bar", str(number))
 
     screen.page.mouse.move(*bar(screen.opened, 25))
     screen.page.mouse.down()

@@ -4,9 +4,10 @@ import re
 import shutil
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.widgets.browser import IGNORED, ROOT, RUN, keep_picture
-from tests.widgets.byhand import PICTURES, draw_faulted_fold, is_painted, is_restored
+from tests.widgets.byhand import draw_faulted_fold, is_of_today, is_painted, is_restored
 
 # What Voila's page itself takes from elsewhere, and an extension of Jupyter Notebook, where that is installed too.
 FOREIGN = re.compile("https://cdn|@jupyter-notebook/lab-extension")
@@ -42,10 +43,9 @@ def _told(message):
 def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
     is_painted(dashboard)
     assert dashboard.evaluate(AXES_SEEN)
-    today = dashboard.evaluate(PICTURES)
+    is_of_today(dashboard)
     draw_faulted_fold(dashboard)
     is_restored(dashboard)
-    assert dashboard.evaluate(PICTURES)[1] != today[1]
     keep_picture(dashboard, "dashboard")
 
     dashboard.get_by_label("with an interpreter's picks").check()
@@ -53,5 +53,5 @@ def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
     dashboard.get_by_text("Two faults, and between them").wait_for()
     is_painted(dashboard)
     is_restored(dashboard)
-    assert dashboard.locator("canvas.seiswidgets-plot").count() == 2
+    expect(dashboard.locator("canvas.seiswidgets-plot")).to_have_count(2)
     keep_picture(dashboard, "dashboard-graben")

@@ -7,9 +7,11 @@ import time
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import seiswidgets as sw
 from tests.widgets.browser import READY, keep_picture
+from tests.widgets.byhand import is_painted
 from tests.widgets.files import line
 
 APP = """
@@ -22,6 +24,9 @@ app
 EXPORTED = """
 app.interpretation, app.fixed, app.live = case.interpretation, case.fixed, True
 app.files.results.folder.value = "{0}-results"
+chore = app.files.results.chore
+tell = chore._tell
+chore._tell = lambda stop, wanted, share: (share > 0.5 and stop.wait(60), tell(stop, wanted, share))[-1]
 """
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
@@ -48,27 +53,8 @@ def name():
 @pytest.fixture
 def app(notebook, name):
     opened = notebook(APP.format(name))
-    ready(opened)
+    is_painted(opened.page)
     return opened
-
-
-def ready(opened):
-    """Wait until the app is painted."""
-    canvas = opened.page.locator("canvas.seiswidgets-plot").first
-    canvas.wait_for()
-    opened.page.wait_for_function(
-        """() => { const one = document.querySelector("canvas.seiswidgets-plot");
-        return one.width > 0 && one.getContext("2d").getImageData(one.width / 2, one.height / 2, 1, 1).data[3] > 0 }"""
-    )
-
-
-def until(opened, code, wanted=True):
-    """Wait until an expression has a value in the kernel."""
-    for _ in range(150):
-        if (found := opened.ask(code)) == wanted:
-            return
-        time.sleep(0.1)
-    pytest.fail(f"{code} is {found}, never {wanted}")
 
 
 def at(opened, x, y):
@@ -95,26 +81,26 @@ def shoot(opened, called):
 def test_a_kernel_killed_in_mid_drag_loses_no_finished_edit(app, name):
     draw_fault(app, 0.3)
     draw_fault(app, 0.6)
-    until(app, NAMES, ["F1", "F2"])
-    until(app, SAVED.format(name), [2])
+    app.becomes(NAMES, ["F1", "F2"])
+    app.becomes(SAVED.format(name), [2])
     before, process = app.ask(PICKS), app.ask("os.getpid()")
     app.page.mouse.move(*at(app, 0.3, 0.2))
     app.page.mouse.down()
     app.page.mouse.move(*at(app, 0.4, 0.3), steps=4)
-    until(app, "app.picker.dragging")
+    app.until("app.picker.dragging")
     os.kill(process, signal.SIGKILL)
     app.page.mouse.up()
     dialog = app.page.locator(".jp-Dialog")
     dialog.get_by_role("button").last.click()
     app.page.wait_for_function(READY)
     app.run()
-    ready(app)
+    is_painted(app.page)
     assert app.ask("os.getpid()") != process
     assert app.ask(NAMES) == []
     app.page.get_by_text("holds earlier work").wait_for()
     shoot(app, "session-offered")
     app.page.get_by_role("button", name="Open", exact=True).click()
-    until(app, NAMES, ["F1", "F2"])
+    app.becomes(NAMES, ["F1", "F2"])
     assert app.ask(PICKS) == before
     assert set(app.errors) <= {"Cannot send"}  # which JupyterLab throws at whoever talks to a dead kernel
     app.errors.clear()
@@ -123,16 +109,16 @@ def test_a_kernel_killed_in_mid_drag_loses_no_finished_edit(app, name):
 
 def test_a_tab_that_is_closed_and_opened_again_goes_on(app, name):
     draw_fault(app, 0.3)
-    until(app, NAMES, ["F1"])
+    app.becomes(NAMES, ["F1"])
     app.command("docmanager:save")
     app.page.close()
     app.visit(app.address)
     app.page.wait_for_function(READY)
-    ready(app)
+    is_painted(app.page)
     assert app.ask(NAMES) == ["F1"]
     draw_fault(app, 0.6)
-    until(app, NAMES, ["F1", "F2"])
-    until(app, SAVED.format(name), [2])
+    app.becomes(NAMES, ["F1", "F2"])
+    app.becomes(SAVED.format(name), [2])
 
 
 def test_a_full_disk_is_said_and_the_picks_are_saved_when_there_is_room(app, name):
@@ -143,17 +129,17 @@ def test_a_full_disk_is_said_and_the_picks_are_saved_when_there_is_room(app, nam
     shoot(app, "disk-full")
     assert app.ask(NAMES) == ["F1"]
     draw_fault(app, 0.6)
-    until(app, NAMES, ["F1", "F2"])
+    app.becomes(NAMES, ["F1", "F2"])
     assert app.ask(SAVED.format(name)) == []
     assert app.ask("app.solving.spacing") is None  # though the page has rounded the slider's value
     app.ask(DISK.format(False))
     alert.wait_for(state="hidden")
-    until(app, SAVED.format(name), [2])
+    app.becomes(SAVED.format(name), [2])
 
 
 def test_a_connection_that_drops_for_ten_seconds_loses_nothing(app, name):
     draw_fault(app, 0.3)
-    until(app, NAMES, ["F1"])
+    app.becomes(NAMES, ["F1"])
     app.page.add_locator_handler(  # JupyterLab says that the server is gone
         app.page.locator(".jp-Dialog"), lambda dialog: dialog.get_by_role("button").last.click()
     )
@@ -167,14 +153,14 @@ def test_a_connection_that_drops_for_ten_seconds_loses_nothing(app, name):
     app.page.wait_for_function(READY)
     assert app.ask(NAMES) == ["F1"]
     app.page.get_by_role("button", name="Look", exact=True).click()  # ends what came only in part
-    until(app, "app.picker.pen.drawing.under_way is None")
+    app.until("app.picker.pen.drawing.under_way is None")
     count = len(app.ask(NAMES)) + 1
     draw_fault(app, 0.8)
-    until(app, f"len({NAMES})", count)
-    until(app, SAVED.format(name), [count])
+    app.becomes(f"len({NAMES})", count)
+    app.becomes(SAVED.format(name), [count])
     window = app.ask("app.panes.original.view.window")
     app.page.mouse.wheel(0, -300)
-    until(app, f"list(app.panes.original.view.window) == {window}", False)
+    app.until(f"list(app.panes.original.view.window) != {window}")
     assert all("WebSocket" in error or "ERR_" in error for error in app.errors), app.errors
     app.errors.clear()
     app.close()  # whatever JupyterLab still has to say of it is not for another test
@@ -182,9 +168,9 @@ def test_a_connection_that_drops_for_ten_seconds_loses_nothing(app, name):
 
 def test_results_go_out_and_sections_come_in_by_mouse(notebook, name, lab, tmp_path):
     app = notebook(APP.format(name), EXPORTED.format(name), height=1500)
-    ready(app)
+    is_painted(app.page)
     show(app, "File")
-    until(app, "len(app.restoration.stages)", 2)
+    app.becomes("len(app.restoration.stages)", 2)
     export_and_cancel(app)
     assert sorted(path.name for path in (lab.folder / f"{name}-results").iterdir()) == [
         "faulted fold-figure.png",
@@ -193,8 +179,8 @@ def test_results_go_out_and_sections_come_in_by_mouse(notebook, name, lab, tmp_p
     path = line(lab.folder / f"{name}.sgy", text="C01 <img src=x onerror=alert(1)>".ljust(3200))
     open_by_path(app, path.name)
     app.page.get_by_role("button", name="Drop the picks").click()
-    until(app, "[app.section.name, app.section.shape]", [name, [40, 30]])
-    ready(app)
+    app.becomes("[app.section.name, app.section.shape]", [name, [40, 30]])
+    is_painted(app.page)
     expected = sw.open_section(path, velocity=2000.0).amplitude
     np.testing.assert_allclose(app.ask("app.section.amplitude[:3].tolist()"), expected[:3], rtol=1e-6)
     sent = line(tmp_path / "sent.sgy", count=500, samples=6000)
@@ -204,7 +190,7 @@ def test_results_go_out_and_sections_come_in_by_mouse(notebook, name, lab, tmp_p
     chooser.value.set_files(sent)
     app.page.get_by_text("500 traces of 6,000 samples").wait_for()
     app.page.get_by_role("button", name="Open section").click()
-    until(app, "[app.section.name, app.section.shape]", ["sent", [6000, 500]])
+    app.becomes("[app.section.name, app.section.shape]", ["sent", [6000, 500]])
     shoot(app, "file-opened")
 
 
@@ -212,7 +198,7 @@ def export_and_cancel(app):
     """Begin an export, ask the kernel something meanwhile, and give it up after the second of three files."""
     app.page.get_by_role("button", name="Export results").click()
     app.page.get_by_text("Writing faulted fold-figure.png ...").wait_for()
-    assert app.ask("app.files.results.chore.busy")
+    assert app.ask("chore.busy")  # the last of the files waits for Cancel
     shoot(app, "exporting")
     app.page.get_by_role("button", name="Cancel").last.click()
     app.page.get_by_text("The export was cancelled. Wrote into").wait_for()
@@ -224,7 +210,7 @@ def open_by_path(app, path):
     field.fill(path)
     field.press("Enter")
     app.page.get_by_text("30 traces of 40 samples").wait_for()
-    assert app.page.locator(f'datalist option[value="{path}"]').count()
+    expect(app.page.locator(f'datalist option[value="{path}"]')).not_to_have_count(0)
     app.page.get_by_text("textual header").click()
     app.page.get_by_text("C01 <img src=x").wait_for()
     other = app.page.get_by_label("other header bytes than the standard's")

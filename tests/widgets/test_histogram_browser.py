@@ -1,9 +1,9 @@
 import time
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.widgets.browser import keep_picture
-from tests.widgets.test_pane_browser import until
 
 CELL = """
 import numpy as np
@@ -39,9 +39,9 @@ def bar(opened, number):
 
 def is_brushed(opened, first, last):
     """Wait until the kernel's brush is these bars, and the page shows it."""
-    until(opened, f"histogram.brush == [{EDGES}[{first}], {EDGES}[{last + 1}]]")
-    lit = "(count) => document.querySelectorAll('.chart .bar:not(.faded)').length === count"
-    opened.page.wait_for_function(lit, arg=last - first + 1)
+    opened.until(f"histogram.brush == [{EDGES}[{first}], {EDGES}[{last + 1}]]")
+    views = opened.page.locator(CHART).count()
+    expect(opened.page.locator(f"{CHART} .bar:not(.faded)")).to_have_count(views * (last - first + 1))
 
 
 def shoot(opened, name):
@@ -74,8 +74,8 @@ def test_brushing_by_mouse(notebook, dark):
     opened.page.keyboard.up("Shift")
     is_brushed(opened, 12, 25)
     opened.page.mouse.dblclick(*bar(opened, 30))
-    until(opened, "histogram.brush == []")
-    assert opened.page.locator(f"{CHART} .faded").count() == 0
+    opened.until("histogram.brush == []")
+    expect(opened.page.locator(f"{CHART} .faded")).to_have_count(0)
 
 
 def test_brushing_by_keyboard(notebook):
@@ -100,7 +100,7 @@ def test_brushing_by_keyboard(notebook):
     press("Shift+Home")
     is_brushed(opened, 0, 40)
     press("Escape")
-    until(opened, "histogram.brush == []")
+    opened.until("histogram.brush == []")
     press("Tab")
     assert not chart(opened).evaluate("chart => chart === document.activeElement")
 
@@ -122,8 +122,7 @@ def test_the_bar_of_the_mark(notebook, ratio, number):
     chart(opened)
     opened.ask(f"histogram.set_trait('mark', {ratio})")
     mark = opened.page.locator(f"{CHART} .mark")
-    mark.wait_for(state="attached")
-    assert mark.get_attribute("data-bar") == str(number)
+    expect(mark).to_have_attribute("data-bar", str(number))
     opened.ask("histogram.set_trait('mark', None)")
     mark.wait_for(state="detached")
 
@@ -147,16 +146,16 @@ def test_two_views_agree_also_after_a_reload(notebook):
     opened = notebook(CELL, "histogram")
     chart(opened, 1)
     opened.page.mouse.click(*bar(opened, 30))
-    until(opened, f"histogram.brush == [{EDGES}[30], {EDGES}[31]]")
+    opened.until(f"histogram.brush == [{EDGES}[30], {EDGES}[31]]")
     markup = "([...document.querySelectorAll('.seiswidgets-histogram')].map((one) => one.outerHTML))"
     same = f"(([one, other]) => one.replace(' by-pointer', '') === other)({markup})"
     opened.page.wait_for_function(same)
-    assert opened.page.locator(f"{CHART} .bar:not(.faded)").count() == 2
+    expect(opened.page.locator(f"{CHART} .bar:not(.faded)")).to_have_count(2)
     opened.command("docmanager:save")
     opened.reload()
     chart(opened, 1)
     opened.page.wait_for_function(same)
-    assert opened.page.locator(f"{CHART} .bar:not(.faded)").count() == 2
+    expect(opened.page.locator(f"{CHART} .bar:not(.faded)")).to_have_count(2)
 
 
 def test_nothing_restored_yet(notebook):

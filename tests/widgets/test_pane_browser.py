@@ -1,10 +1,10 @@
 import re
-import time
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
-from tests.widgets.browser import keep_picture
+from tests.widgets.browser import keep_picture, settled
 
 CELL = """
 import numpy as np
@@ -70,12 +70,14 @@ WATCH = """() => {
   const canvas = document.querySelector("canvas.seiswidgets-plot");
   window.watched = [];
   const look = () => {
+    if (!window.watched) return;
     const pixel = canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data;
     window.watched.push(Array.from(pixel));
-    if (window.watched.length < 150) requestAnimationFrame(look);
+    requestAnimationFrame(look);
   };
   look();
 }"""
+WATCHED = "() => { const seen = window.watched; window.watched = null; return seen; }"
 MOVE = """
 import time
 pane.limit = 1.0
@@ -83,7 +85,7 @@ for step in range(12):
     size = 300 + step // 4  # so that canvases are resized now and then
     moved = sw.Section(np.full((size, size), np.cos(step)), dx=10, dz=10)
     pane.show(moved, moving=True)
-    time.sleep(0.02)
+    time.sleep(0.05)
 pane.show(moved)
 """
 STILL = "[pane.view.window, pane.view.backing]"
@@ -106,19 +108,12 @@ PIXELS = """(number) => {
 def painted(opened, number=0):
     """What is on the canvas, once it holds a picture."""
     opened.page.locator("canvas.seiswidgets-plot").nth(number).wait_for()
-    return settled(opened, lambda pixels: pixels["left"][3] == 255, number)
+    return still(opened, lambda pixels: pixels["left"][3] == 255, number)
 
 
-def settled(opened, suits=lambda pixels: True, number=0):
+def still(opened, suits=lambda pixels: True, number=0):
     """What is on the canvas, once that has not changed for a while."""
-    last = None
-    for _ in range(100):
-        pixels = opened.page.evaluate(PIXELS, number)
-        if suits(pixels) and last and pixels["sum"] == last["sum"]:
-            return pixels
-        last = pixels
-        time.sleep(0.3)
-    pytest.fail(f"the canvas did not settle: {last}")
+    return settled(lambda: opened.page.evaluate(PIXELS, number), suits)
 
 
 def plot_box(opened, number=0):
@@ -128,15 +123,6 @@ def plot_box(opened, number=0):
 def place(opened, x, y):
     """The point of the section under a css pixel of the plot area."""
     return opened.ask(f"pane.view.to_section(({x}, {y})).tolist()")
-
-
-def until(opened, code):
-    """Wait until an expression is true in the kernel."""
-    for _ in range(300):
-        if opened.holds(code):
-            return
-        time.sleep(0.1)
-    pytest.fail(f"never true: {code}")
 
 
 def shoot(opened, name):
@@ -167,28 +153,29 @@ def test_wheel_drag_and_double_click(notebook, dark):
     per_pixel = opened.ask("pane.view.pixel.tolist()")
     opened.page.mouse.move(*at)
     opened.page.mouse.wheel(0, -400)
-    until(opened, "not pane.view.is_fitted")
-    settled(opened)
+    opened.until("not pane.view.is_fitted")
+    still(opened)
     assert (np.abs(np.subtract(place(opened, *shift), before)) <= per_pixel).all()
 
     opened.page.mouse.down()
     opened.page.mouse.move(at[0] + 60, at[1] + 30, steps=5)
     opened.page.mouse.up()
-    until(opened, "seen[-1] in ('rest', 'release')")
+    opened.until("seen[-1] in ('rest', 'release')")
     assert (np.abs(np.subtract(place(opened, shift[0] + 60, shift[1] + 30), before)) <= per_pixel).all()
-    zoomed = settled(opened)
+    zoomed = still(opened)
     assert zoomed["sum"] != first["sum"]
     shoot(opened, f"pane-zoomed-{'dark' if dark else 'light'}")
 
     opened.page.mouse.dblclick(*at)
-    until(opened, "pane.view.is_fitted")
-    assert settled(opened)["sum"] == first["sum"]
+    opened.until("pane.view.is_fitted")
+    assert still(opened)["sum"] == first["sum"]
 
 
 def drawn(opened, number=0):
-    """What the layer has drawn, without the cursors."""
+    """What the layer has drawn, without the cursors, once that has not changed for a while."""
     plot = opened.page.locator(".seiswidgets-layer .plot").nth(number)
-    return [plot.locator(f".{name}").first.evaluate("one => one.outerHTML") for name in ("mesh", "strokes", "marks")]
+    parts = [plot.locator(f".{name}").first for name in ("mesh", "strokes", "marks")]
+    return settled(lambda: [part.evaluate("one => one.outerHTML") for part in parts])
 
 
 @pytest.mark.parametrize("dark", [False, True])
@@ -196,11 +183,11 @@ def test_a_page_that_is_reloaded_shows_the_same(notebook, dark):
     opened = notebook(PICKED, dark=dark)
     plain = painted(opened)
     shoot(opened, f"picked-{'dark' if dark else 'light'}")
-    assert opened.page.locator(".name").all_text_contents() == ["F1", "<img src=x onerror=alert(1)>"]
+    expect(opened.page.locator(".name")).to_have_text(["F1", "<img src=x onerror=alert(1)>"])
     opened.page.mouse.move(plot_box(opened)["x"] + 500, plot_box(opened)["y"] + 200)
     opened.page.mouse.wheel(0, -300)
-    until(opened, "not pane.view.is_fitted and seen[-1] == 'rest'")
-    before, view = settled(opened), opened.ask(STILL)
+    opened.until("not pane.view.is_fitted and seen[-1] == 'rest'")
+    before, view = still(opened), opened.ask(STILL)
     assert before["sum"] != plain["sum"]
     shoot(opened, f"picked-zoomed-{'dark' if dark else 'light'}")
     lines = drawn(opened)
@@ -221,14 +208,14 @@ def test_a_second_view_shows_the_same_and_an_overlay_its_colours(notebook):
     opened.page.mouse.move(box["x"] + 500, box["y"] + 200)
     opened.page.mouse.wheel(0, -300)
     shoot(opened, "second-view")
-    until(opened, "'rest' in seen")
-    first, second = settled(opened), settled(opened, number=1)
+    opened.until("'rest' in seen")
+    first, second = still(opened), still(opened, number=1)
     assert first == second
     assert drawn(opened) == drawn(opened, 1)
     opened.ask("pane.fit()")
-    covered = settled(opened)["top"]
+    covered = still(opened)["top"]
     opened.ask("setattr(pane, 'overlay', None)")
-    bare = settled(opened, lambda pixels: pixels["top"] != covered)["top"]
+    bare = still(opened, lambda pixels: pixels["top"] != covered)["top"]
     share = 0.6 * 0.75  # the overlay's opacity, and that of its level three quarters from its left
     expected = np.multiply(bare[:3], 1 - share) + np.multiply([255, 0, 0], share)
     np.testing.assert_allclose(covered[:3], expected, atol=4)
@@ -240,7 +227,7 @@ def test_a_section_that_moves_never_leaves_the_pane_blank(notebook):
     opened.page.evaluate(WATCH)
     opened.ask(f"exec({MOVE!r})")
     painted(opened)
-    seen = opened.page.evaluate("window.watched")
+    seen = opened.page.evaluate(WATCHED)
     assert len({tuple(pixel) for pixel in seen}) > 3
     assert {pixel[3] for pixel in seen} == {255}
 
@@ -258,8 +245,8 @@ def test_moves_of_the_mouse_are_not_sent_one_by_one(notebook):
     opened = notebook(LINKED)
     painted(opened)
     assert any(sent_by_a_sweep(opened) <= 30 for _ in range(3))  # the mouse seems to rest whenever the machine does
-    assert opened.page.locator(".seiswidgets-layer .own line").count() == 4
-    assert opened.page.locator(".seiswidgets-layer .linked line").count() == 4
+    for cross in ("own", "linked"):
+        expect(opened.page.locator(f".seiswidgets-layer .{cross} line")).to_have_count(4)
     assert opened.ask("heard") == []
 
 
@@ -269,11 +256,11 @@ def test_the_keyboard_zooms_and_tab_leaves(notebook):
     plot = opened.page.locator(".seiswidgets-layer .plot")
     plot.focus()
     opened.page.keyboard.press("+")
-    until(opened, "not pane.view.is_fitted")
+    opened.until("not pane.view.is_fitted")
     shoot(opened, "pane-focused")
     opened.page.keyboard.press("0")
     opened.page.keyboard.press("0")  # in JupyterLab, twice 0 restarts the kernel
-    until(opened, "pane.view.is_fitted")
+    opened.until("pane.view.is_fitted")
     assert opened.page.get_by_role("dialog").count() == 0
     assert re.search("zoom with", plot.get_attribute("aria-label"))
     opened.page.keyboard.press("Tab")

@@ -1,5 +1,4 @@
 from tests.widgets.browser import keep_picture
-from tests.widgets.test_pane_browser import until
 
 CELL = """
 import seiswidgets as sw
@@ -19,10 +18,10 @@ def test_steps_by_keyboard_with_the_focus_kept(notebook):
     press = opened.page.keyboard.press
     opened.page.get_by_title(EARLIER).nth(2).focus()
     press("Enter")
-    until(opened, "[step.datum for step in steps.steps] == [None, 5, None]")
+    opened.until("[step.datum for step in steps.steps] == [None, 5, None]")
     opened.page.wait_for_function(f"({FOCUSED})('{EARLIER}') === 1")
     press("Enter")
-    until(opened, "[step.datum for step in steps.steps] == [5, None, None]")
+    opened.until("[step.datum for step in steps.steps] == [5, None, None]")
     opened.page.wait_for_function(f"({FOCUSED})('{LATER}') === 0")
 
 
@@ -37,7 +36,7 @@ def test_typing_a_datum(notebook):
     opened.page.get_by_text("missing: H1").wait_for(state="attached")
     assert datum.evaluate("field => field === document.activeElement && field.value === '7'")
     datum.press("Enter")
-    until(opened, "steps.steps[2].datum == 7")
+    opened.until("steps.steps[2].datum == 7")
     opened.page.get_by_role("alert").wait_for(state="detached")
 
 

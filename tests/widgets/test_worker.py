@@ -19,7 +19,6 @@ def test_a_job_is_done_and_the_thread_ends(worker):
     worker.ask(lambda wanted: done.append(wanted()))
     assert worker.wait(5)
     assert done == [True]
-    assert not worker.busy
     assert not [thread for thread in threading.enumerate() if thread.name == "seiswidgets restoring"]
 
 

@@ -20,12 +20,6 @@ class Worker:
         self._number = 0
         self._thread = None
 
-    @property
-    def busy(self) -> bool:
-        """Whether a job is under way or waits."""
-        with self._changed:
-            return self._thread is not None
-
     def ask(self, job: Job, delay: float = 0.0) -> None:
         """Have a job done, after so many seconds unless a newer one comes."""
         with self._changed:
