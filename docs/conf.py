@@ -35,8 +35,9 @@ html_copy_source = False
 
 
 def setup(app):
-    """Tell what widgets are made with, which traitlets hides."""
+    """Tell what widgets are made with, which traitlets hides, and make the pages accessible."""
     app.connect("autodoc-process-signature", widget_signature)
+    app.connect("html-page-context", make_accessible, priority=900)  # after the theme
 
 
 def widget_signature(app, what, name, thing, options, signature, returned):
@@ -46,3 +47,16 @@ def widget_signature(app, what, name, thing, options, signature, returned):
     given = inspect.signature(thing.__init__)
     parameters = [one.replace(annotation=one.empty) for one in list(given.parameters.values())[1:]]
     return str(given.replace(parameters=parameters)), returned
+
+
+ACCESSIBLE = {
+    'role="heading"': 'role="heading" aria-level="2"',
+    "<pre>": '<pre tabindex="0">',  # wide code can be scrolled by keyboard
+}
+
+
+def make_accessible(app, page, template, context, doctree):
+    """Say in a page's HTML what Sphinx leaves out."""
+    for part in {"body", "furo_navigation_tree"} & set(context):
+        for plain, accessible in ACCESSIBLE.items():
+            context[part] = context[part].replace(plain, accessible)

@@ -10,6 +10,7 @@ class Names(anywidget.AnyWidget):
     """Shows nothing; in the box that it is a child of, each control gets a name, that of its label or its tooltip."""
 
     _esm = Path(__file__).with_name("names.js")
+    _css = Path(__file__).with_name("names.css")
 
     def __init__(self):
         super().__init__(layout=Layout(display="none"))

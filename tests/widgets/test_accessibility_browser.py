@@ -1,25 +1,24 @@
-"""The app's own elements by axe-core, in JupyterLab: nothing serious, in either theme and on any of its tabs."""
+"""Nothing serious is found by axe-core: in the app on any of its tabs, in a report, in the documentation."""
 
-from importlib import resources
+import os
 
 import pytest
 from playwright.sync_api import expect
 
+import seiswidgets as sw
+from tests.widgets.axe import serious
+from tests.widgets.browser import ROOT
 from tests.widgets.byhand import is_painted, is_restored
 
-AXE = (resources.files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 CELL = """
 import seiswidgets as sw
 gallery = sw.Gallery(with_picks=True)
 gallery
 """
 TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report")
-FINDINGS = """async () => {
-  const found = await axe.run(".jp-OutputArea-output > .widget-vbox", { resultTypes: ["violations"] });
-  return found.violations
-    .filter(({ impact }) => impact === "serious" || impact === "critical")
-    .flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html} ${node.failureSummary}`));
-}"""
+APP = ".jp-OutputArea-output > .widget-vbox"
+PAGES = ROOT / "docs" / "_build" / "html"
+KINDS = ("docs/index", "docs/formats", "docs/api/widgets", "notebooks/01_restore_a_section", "CONTRIBUTING")
 
 
 @pytest.mark.parametrize("dark", [False, True])
@@ -27,14 +26,13 @@ def test_axe_finds_nothing_serious_in_the_app(notebook, dark):
     opened = notebook(CELL, dark=dark, height=1200)
     is_painted(opened.page)
     is_restored(opened.page)
-    opened.page.evaluate(AXE)
     for tab in TABS:
         opened.page.get_by_role("tab", name=tab, exact=True).click()
         opened.page.get_by_role("tabpanel").first.wait_for()
-        assert opened.page.evaluate(FINDINGS) == [], tab
+        assert serious(opened.page, APP) == [], tab
     opened.page.get_by_role("tab", name="File", exact=True).click()
     opened.page.get_by_placeholder("section: path of").wait_for()  # it is made when it is looked at
-    assert opened.page.evaluate(FINDINGS) == []
+    assert serious(opened.page, APP) == []
 
 
 def test_controls_are_found_by_the_names_that_are_seen_beside_them(notebook):
@@ -51,3 +49,30 @@ def test_controls_are_found_by_the_names_that_are_seen_beside_them(notebook):
     opened.ask("setattr(gallery, 'choice', 'graben')")
     opened.page.get_by_text("Two faults, and between them").wait_for()
     expect(fault).to_have_count(2)
+
+
+@pytest.fixture(params=["light", "dark"])
+def page(chromium, request):
+    context = chromium.new_context(color_scheme=request.param)
+    yield context.new_page()
+    context.close()
+
+
+def test_axe_finds_nothing_serious_in_a_report(page, tmp_path):
+    case = sw.synthetic.faulted_fold()
+    picks = case.interpretation
+    unfaulted = sw.Restoration(case.section).unfault(picks.faults, picks.horizons, fixed=case.fixed)
+    path = tmp_path / "report.html"
+    sw.save_report(unfaulted.flatten(picks.horizon("H2")), path)
+    page.goto(path.as_uri())
+    assert page.get_by_role("table").count() > 1
+    assert serious(page) == []
+
+
+def test_axe_finds_nothing_serious_in_the_documentation(page):
+    if not PAGES.exists():
+        missing = "the documentation has not been made: make docs"
+        pytest.fail(missing) if os.environ.get("CI") else pytest.skip(missing)
+    for kind in KINDS:
+        page.goto((PAGES / f"{kind}.html").as_uri())
+        assert serious(page) == [], kind

@@ -6,6 +6,7 @@ import shutil
 import pytest
 from playwright.sync_api import expect
 
+from tests.widgets.axe import serious
 from tests.widgets.browser import IGNORED, ROOT, RUN, keep_picture
 from tests.widgets.byhand import draw_faulted_fold, is_of_today, is_painted, is_restored
 
@@ -54,4 +55,5 @@ def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
     is_painted(dashboard)
     is_restored(dashboard)
     expect(dashboard.locator("canvas.seiswidgets-plot")).to_have_count(2)
+    assert serious(dashboard) == []
     keep_picture(dashboard, "dashboard-graben")

@@ -8,6 +8,7 @@ import pytest
 from tests.exercise_answers import ANSWERS
 from tests.sections import real_section
 from tests.test_notebooks import NOTEBOOKS
+from tests.widgets.axe import serious
 from tests.widgets.byhand import draw_faulted_fold, is_of_today, is_painted, is_restored
 from tests.widgets.test_pane_browser import shoot
 
@@ -43,6 +44,7 @@ def walk(notebook, lab):
         for number in range(len(answers)):
             forms.nth(number).wait_for()
         answer_by_hand(forms.first, *answers[0])
+        assert serious(opened.page, ".jp-OutputArea-output") == []
         shoot(opened, path.stem)
         seconds, memory = opened.ask(USED)
         assert seconds < MOST_SECONDS

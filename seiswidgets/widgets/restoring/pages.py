@@ -17,6 +17,7 @@ class Pages(Tab):
     def __init__(self, **pages: Callable[[], Widget]):
         self._makers = list(pages.values())
         super().__init__([VBox() for _ in pages], titles=list(pages), layout=Layout(min_width="0"))
+        self.add_class("seiswidgets-pages")
         self.observe(lambda change: self._look(change.new), "selected_index")
         self._look(0)
 
