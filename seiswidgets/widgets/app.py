@@ -165,7 +165,7 @@ class RestorationApp(Tabbed, Turning, VBox):
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
-        return [self.picker.toolbar, self.status, self.keeper, self.panes, below, Names()]
+        return [self.picker.toolbar, self.status, self.keeper, self.panes, self.keeper.news, below, Names()]
 
     def _tie_parts(self):
         for name in ("interpretation", "fixed"):

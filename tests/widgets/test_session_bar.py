@@ -211,15 +211,14 @@ def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_d
     app = new_app(session=path)
     full_disk.append(True)
     draw_fault(app)
-    wait_for(lambda: app.keeper._failure.text)
-    assert "No space left on device" in app.keeper._failure.text
-    assert "stays in memory" in app.keeper._failure.text
-    assert app.status.text != app.keeper._failure.text
+    wait_for(lambda: app.keeper.news.text)
+    assert "No space left on device" in app.keeper.news.text
+    assert "stays in memory" in app.keeper.news.text
+    assert app.status.text != app.keeper.news.text
     assert [fault.name for fault in app.interpretation.faults] == ["F1"]
     full_disk.clear()
     wait_for(lambda: names(path) == ["F1"])
-    wait_for(lambda: "Saved again" in app.keeper.notice.text)
-    assert not app.keeper._failure.text
+    wait_for(lambda: "Saved again" in app.keeper.news.text)
 
 
 @pytest.mark.usefixtures("quick")
@@ -227,11 +226,11 @@ def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk
     app = new_app(session=path)
     full_disk.append(True)
     draw_fault(app)
-    wait_for(lambda: app.keeper._failure.text)
+    wait_for(lambda: app.keeper.news.text)
     monkeypatch.setattr(app.keeper._autosave, "_written", lambda session: DataError("still full"))
     full_disk.clear()
     app.session_path = path.with_name("other.json")
-    assert not app.keeper._failure.text
+    assert not app.keeper.news.text
     wait_for(lambda: names(path.with_name("other.json")) == ["F1"])
     assert names(path) == []
 
@@ -308,9 +307,9 @@ def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, sect
 
 def test_another_section_sets_the_work_on_the_first_aside(new_app, path, full_disk):
     app = new_app(session=path)
+    full_disk.append(True)
     draw_fault(app)
     other = sw.synthetic.tilt().section
-    full_disk.append(True)
     with pytest.raises(DataError, match="No space left"):
         app.section = other
     assert [fault.name for fault in app.interpretation.faults] == ["F1"]

@@ -36,7 +36,10 @@ class SessionBar(VBox):
     path : Path or None
         Where the session is kept; `keep` sets it.
     notice : Question
-        What is said, and asked.
+        What is said, and asked, when the app or its user begins something.
+    news : Question
+        That saving fails, or works again; not a part of the bar, as it comes while lines are drawn, and must not move
+        what is below.
     """
 
     path = Instance(Path, allow_none=True)
@@ -44,9 +47,9 @@ class SessionBar(VBox):
     def __init__(self, app):
         self._app, self._autosave, self._sha256 = app, None, None
         self._worker, self._has_work = Worker(), False
-        self.notice, self._failure = Question(), Question()
+        self.notice, self.news = Question(), Question()
         self.versions = Dropdown(description="version", layout=Layout(width="auto", max_width="100%"))
-        super().__init__([self._failure, self.notice])
+        super().__init__([self.notice])
         app.observe(self._take_edit, ("weights", "steps"))
         app.solving.observe(self._take_edit, ("spacing", "solver"))
         app.picker.observe(self._take_edit, "drawing")
@@ -72,7 +75,7 @@ class SessionBar(VBox):
             return
         with contextlib.suppress(DataError):  # whose remedy may be this path: all that is drawn is saved there
             self.end()
-        self._failure.hint("")
+        self.news.hint("")
         if path in _in_use:
             _in_use[path].give_up()
         self.path, _in_use[path] = path, self
@@ -94,7 +97,7 @@ class SessionBar(VBox):
         self.notice.hint("")
         if autosave is not None:
             autosave.close()
-        self._failure.hint("")
+        self.news.hint("")
 
     def give_up(self) -> None:
         """End, as another app keeps its work in the same file; what cannot be saved stays in memory."""
@@ -149,10 +152,9 @@ class SessionBar(VBox):
     def _report(self, error):
         """Say that saving fails, or works again; on the thread that saves."""
         if error is None:
-            self._failure.hint("")
-            self.notice.hint(f"Saved again in {self.path}.")
+            self.news.hint(f"Saved again in {self.path}.")
         else:
-            self._failure.alert(f"{error}. {SAFE}")
+            self.news.alert(f"{error}. {SAFE}")
 
     def _offer(self, versions):
         self.versions.options = [(_words(version), version) for version in versions]
