@@ -25,6 +25,7 @@ SOURCE = sw.SectionSource("synthetic", "tilt")
         lambda path: sw.write_picks(NONE_DRAWN, path, SECTION),
         lambda path: sw.save_section(SECTION, path),
         lambda path: sw.SectionSource("file", path),
+        sw.Autosave,
     ],
 )
 def test_what_is_no_path_is_told(act, path):
@@ -67,6 +68,12 @@ def test_arguments_of_another_kind_are_told(tmp_path, act, message):
     with pytest.raises(sw.SettingError, match=message):
         act(tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_name_of_a_pick_may_stand_alone_in_a_step():
+    assert sw.Step("flatten", "H1").picks == ("H1",)
+    with pytest.raises(sw.SettingError, match="the weights of a plan must be seiswidgets.Weights, but are "):
+        sw.Plan(weights={"slide": 1})
 
 
 @pytest.mark.parametrize("fixed", [5, (1, 2, 3), ("left", "top")])
