@@ -40,8 +40,8 @@ def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
             return file.read(largest).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise DataError(
-            f"{path} is not UTF-8 text: byte 0x{error.object[error.start]:02x} at {error.start}; save it again as UTF-8, "
-            "if it is text at all"
+            f"{path} is not UTF-8 text: byte 0x{error.object[error.start]:02x} at {error.start}; save it again as "
+            "UTF-8, if it is text at all"
         ) from None
     except DataError:
         raise
