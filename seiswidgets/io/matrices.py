@@ -211,16 +211,15 @@ def _say_where(path, delimiter):
             width = width or len(values)
             if len(values) != width:
                 raise DataError(f"{path}: row {place} has {len(values)} values, and those before it {width}; {PLAIN}")
-            for number, value in enumerate(values, 1):
-                if not _is_number(value):
-                    raise DataError(
-                        f"{path}: row {place}, value {number} must be a number, but is {brief(value.strip())}; {PLAIN}"
-                    )
+            if not _are_numbers(values):
+                number, value = next(pair for pair in enumerate(values, 1) if not _are_numbers(pair[1:]))
+                raise DataError(
+                    f"{path}: row {place}, value {number} must be a number, but is {brief(value.strip())}; {PLAIN}"
+                )
 
 
-def _is_number(text):
+def _are_numbers(texts):
     try:
-        float(text)
+        return bool(list(map(float, texts)))
     except ValueError:
         return False
-    return True
