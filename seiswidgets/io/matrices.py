@@ -220,6 +220,7 @@ def _say_where(path, delimiter):
 
 def _are_numbers(texts):
     try:
-        return bool(list(map(float, texts)))
+        list(map(float, texts))
     except ValueError:
         return False
+    return True
