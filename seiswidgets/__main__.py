@@ -1,6 +1,8 @@
 """What ``python -m seiswidgets`` does: restore sessions without a notebook."""
 
 import argparse
+import re
+import shutil
 import sys
 import traceback
 from pathlib import Path
@@ -11,6 +13,7 @@ from seiswidgets.io.replay import output_names, replayed
 
 WIDTH = 24  # of the bar
 SHARE = 5  # iterations, after which half of a step is shown as done: nobody knows how many it will take
+OPTION = re.compile(r"\b(allow_outside|allow_changed)=True\b")  # of a function, in what its errors advise
 
 DESCRIPTION = """Restores the section of each session as its plan says, and writes into a folder:
 <name>-restored.npz (the section), <name>-report.txt and <name>-report.json (how each step went).
@@ -70,7 +73,7 @@ def _restored(path, name, asked):
             allow_changed=asked.allow_changed,
         )
     except SeiswidgetsError as error:
-        message = str(error)
+        message = OPTION.sub(lambda match: f"--{match[1].replace('_', '-')}", str(error))
         bar.end(message if message.startswith(str(path)) else f"{path}: {message}")
         return False
     except Exception as error:  # noqa: BLE001 - a fault of ours in one session must not keep the others from theirs
@@ -96,7 +99,9 @@ class Bar:
         if not sys.stderr.isatty():
             return
         filled = round(WIDTH * (step - 1 + iteration / (iteration + SHARE)) / steps)
-        self._write(f"{self.label} [{'#' * filled:<{WIDTH}}] step {step} of {steps}, iteration {iteration}")
+        bar = f" [{'#' * filled:<{WIDTH}}] step {step} of {steps}, iteration {iteration}"
+        room = max(0, shutil.get_terminal_size().columns - len(bar) - 1)  # a longer line would not be written over
+        self._write(self.label[max(0, len(self.label) - room) :] + bar)
 
     def end(self, message: str) -> None:
         """Leave a message where the bar was."""

@@ -34,8 +34,8 @@ class Step:
     ----------
     kind : {"unfault", "flatten"}
     picks : tuple of str
-        Names of the faults to slide along, or of the one horizon to flatten. If left out: all faults; the first
-        horizon.
+        Names of the faults to slide along, or of the one horizon to flatten; one name may stand alone. If left out: all
+        faults; the first horizon.
     datum : float, optional
         The level to flatten to, in the section's unit of z; the horizon's mean level if left out.
     on : bool
@@ -55,7 +55,7 @@ class Step:
     def __post_init__(self):
         if self.kind not in (UNFAULT, FLATTEN):
             raise SettingError(f"a step must be {UNFAULT!r} or {FLATTEN!r}, but is {self.kind!r}")
-        object.__setattr__(self, "picks", tuple(self.picks))
+        object.__setattr__(self, "picks", (self.picks,) if isinstance(self.picks, str) else tuple(self.picks))
         if self.datum is not None:
             object.__setattr__(self, "datum", asked.number("datum", self.datum))
 
@@ -95,6 +95,8 @@ class Plan:
         wrong = [step for step in self.steps if not isinstance(step, Step)]
         if wrong:
             raise SettingError(f"the steps of a plan must be seiswidgets.Step, but one is {wrong[0]!r}")
+        if not isinstance(self.weights, Weights):
+            raise SettingError(f"the weights of a plan must be seiswidgets.Weights, but are {self.weights!r}")
         if self.solver not in MOST_ITERATIONS:
             raise SettingError(f"solver must be {' or '.join(map(repr, MOST_ITERATIONS))}, but is {self.solver!r}")
 

@@ -12,6 +12,7 @@ from datetime import datetime
 from pathlib import Path
 
 from seiswidgets.errors import DataError
+from seiswidgets.io.paths import user_path
 from seiswidgets.io.session import Session, open_session
 from seiswidgets.io.writing import write_whole
 
@@ -62,7 +63,7 @@ class Autosave:
         behind: float = BEHIND,
         again: float = AGAIN,
     ):
-        self.path, self.keep = Path(path), keep
+        self.path, self.keep = user_path(path), keep
         self._report, self._behind, self._again = report or (lambda error: None), behind, again
         self._change = threading.Condition()
         self._pending: Session | None = None
@@ -158,8 +159,8 @@ def found(path: str | os.PathLike) -> list[Version]:
 
     A session that was saved under the path itself is the last of them.
     """
-    versions = []
-    for saved in [*(file for _, file in sorted(numbered(Path(path)).items(), reverse=True)), Path(path)]:
+    path, versions = user_path(path), []
+    for saved in [*(file for _, file in sorted(numbered(path).items(), reverse=True)), path]:
         try:
             session = open_session(saved, allow_outside=True)  # the section's file is not opened yet
             versions.append(Version(saved, datetime.fromtimestamp(saved.stat().st_mtime).astimezone(), session))
@@ -176,7 +177,8 @@ def set_aside(path: str | os.PathLike) -> Path | None:
     DataError
         If it cannot be copied.
     """
-    path, versions = Path(path), numbered(Path(path))
+    path = user_path(path)
+    versions = numbered(path)
     if not versions:
         return None
     newest = max(versions)

@@ -34,13 +34,14 @@ def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
         if path.stat().st_size > largest:
             raise DataError(
                 f"{path} holds {path.stat().st_size / 2**20:.0f} MiB, and picks of one section fit in "
-                f"{largest / 2**20:.0f}; export that section's picks alone"
+                f"{largest / 2**20:.0f}; export that section's picks alone, if it is a file of picks at all"
             )
         with path.open("rb") as file:
             return file.read(largest).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise DataError(
-            f"{path} is not UTF-8 text: byte 0x{error.object[error.start]:02x} at {error.start}; save it again as UTF-8"
+            f"{path} is not UTF-8 text: byte 0x{error.object[error.start]:02x} at {error.start}; save it again as "
+            "UTF-8, if it is text at all"
         ) from None
     except DataError:
         raise

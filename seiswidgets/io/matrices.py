@@ -8,6 +8,7 @@ import zlib
 from contextlib import contextmanager
 from math import prod
 from pathlib import Path
+from reprlib import repr as brief
 
 import numpy as np
 from numpy.lib import format as npy
@@ -190,4 +191,36 @@ def _numbers(path, rows=None):
         if len(first) > MOST_ROW:
             raise DataError(f"{path} has a first row of {len(first):,} characters; write a row for each sample")
         delimiter = next(mark for mark in DELIMITERS if mark is None or mark in first.partition("#")[0])
-        return np.loadtxt(path, delimiter=delimiter, ndmin=2, max_rows=rows, encoding="utf-8-sig")
+        try:
+            return np.loadtxt(path, delimiter=delimiter, ndmin=2, max_rows=rows, encoding="utf-8-sig")
+        except UnicodeDecodeError:
+            raise
+        except ValueError:
+            _say_where(path, delimiter)
+            raise
+
+
+def _say_where(path, delimiter):
+    """DataError that names the first row of a text that is none of numbers, or is not as long as those before it."""
+    width = None
+    with path.open(encoding="utf-8-sig") as file:
+        for place, line in enumerate(file, 1):
+            if not (row := line.partition("#")[0].strip()):
+                continue
+            values = row.split(delimiter)
+            width = width or len(values)
+            if len(values) != width:
+                raise DataError(f"{path}: row {place} has {len(values)} values, and those before it {width}; {PLAIN}")
+            if not _are_numbers(values):
+                number, value = next(pair for pair in enumerate(values, 1) if not _are_numbers(pair[1:]))
+                raise DataError(
+                    f"{path}: row {place}, value {number} must be a number, but is {brief(value.strip())}; {PLAIN}"
+                )
+
+
+def _are_numbers(texts):
+    try:
+        list(map(float, texts))
+    except ValueError:
+        return False
+    return True

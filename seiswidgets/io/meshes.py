@@ -1,11 +1,13 @@
 """The mesh of a stage, with what was done to it, for ParaView and other readers of VTK's files."""
 
+from numbers import Integral
 from os import PathLike
 
 import numpy as np
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.optional import required
 from seiswidgets.io.writing import checked_path, written
 
@@ -30,14 +32,15 @@ def save_mesh(restored: Restoration, path: str | PathLike, stage: int = -1):
     Raises
     ------
     SettingError
-        If there is no such stage, or the path ends otherwise.
+        If there is no such stage, the path ends otherwise, or it is no restoration.
     DataError
         If the file cannot be written, or meshio is not installed.
     """
     path = checked_path(path, SUFFIXES)
+    checked_kind(restored, Restoration, "restored")
     count = len(restored.stages)
-    if not -count <= stage < count:
-        raise SettingError(f"there is no stage {stage} to save; there are {count}, counted from 0")
+    if not (isinstance(stage, Integral) and -count <= stage < count):
+        raise SettingError(f"there is no stage {stage!r} to save; there are {count}, counted from 0")
     meshio = required("meshio", f"to write {path}")
     done = restored.stages[stage]
     larger, smaller = done.principal_stretches.T

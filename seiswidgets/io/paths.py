@@ -2,6 +2,7 @@
 
 from os import PathLike
 from pathlib import Path
+from reprlib import repr as brief
 
 from seiswidgets.errors import DataError
 
@@ -12,8 +13,10 @@ def user_path(path: str | PathLike) -> Path:
     Raises
     ------
     DataError
-        If there is no such home.
+        If it is none, or there is no such home.
     """
+    if not isinstance(path, str | PathLike) or path == "":
+        raise DataError(f"a path must be a text or a Path that names a file, but is {brief(path)}")
     try:
         return Path(path).expanduser()
     except RuntimeError as error:

@@ -7,6 +7,7 @@ from math import isfinite
 from os import PathLike
 
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.writing import checked_path, written
 
 SUFFIXES = (".json", ".html")
@@ -19,11 +20,12 @@ def save_report(restored: Restoration, path: str | PathLike):
     Raises
     ------
     SettingError
-        If the path ends otherwise.
+        If the path ends otherwise, or it is no restoration.
     DataError
         If the file cannot be written.
     """
     path = checked_path(path, SUFFIXES)
+    checked_kind(restored, Restoration, "restored")
     if path.suffix.lower() == ".json":
         text = json.dumps(report_as_dict(restored), indent=2, allow_nan=False, ensure_ascii=False)
     else:

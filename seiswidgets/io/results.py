@@ -1,6 +1,8 @@
 """Sections out: SEG-Y and .npz."""
 
 from collections.abc import Mapping
+from math import isfinite
+from numbers import Real
 from os import PathLike
 from pathlib import Path
 
@@ -9,7 +11,7 @@ import numpy as np
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.io.choices import Choices
+from seiswidgets.io.choices import OF_SEGY, Choices
 from seiswidgets.io.matrices import STORED
 from seiswidgets.io.paths import existing_file
 from seiswidgets.io.segywriting import write_segy
@@ -49,20 +51,24 @@ def save_section(
     Raises
     ------
     SettingError
-        If the path ends otherwise, or SEG-Y cannot hold the section.
+        If the path ends otherwise, SEG-Y cannot hold the section, or a choice has no meaning.
     DataError
         If the file cannot be written, or ``like`` cannot be read.
     """
     path = checked_path(path, SUFFIXES)
     line = Choices(inline=inline, crossline=crossline, traces=traces, header_bytes=header_bytes, x0=x0)
+    if not (isinstance(x0, Real) and isfinite(x0)):
+        raise SettingError(f"x0 must be a finite number, but is {x0!r}")
     done = section if isinstance(section, Restoration) else None
     section = section.section if done else section
     if not isinstance(section, Section):
         raise SettingError(f"save_section takes a Section or a Restoration, but got a {type(section).__name__}")
     if path.suffix.lower() == ".npz":
-        if like is not None or line.given(("inline", "crossline", "traces", "header_bytes")):
+        if like is not None or line.given(OF_SEGY):
             raise SettingError(f"{path} becomes an .npz file, which has no headers; leave like= and its line out")
         write_npz(section, path)
+    elif like is None and line.given(OF_SEGY):
+        raise SettingError(f"{', '.join(line.given(OF_SEGY))}= is of the line that like= holds; give that file too")
     else:
         write_segy(section, path, done, None if like is None else existing_file(like), line)
 

@@ -40,13 +40,15 @@ class SavedPick:
     def __post_init__(self):
         if any("\ud800" <= letter <= "\udfff" for letter in self.name):
             raise PickError(f"the name {self.name!r} holds half a character; rename it")
-        if self.colour is not None and not COLOUR.fullmatch(self.colour):
+        if self.colour is not None and not (isinstance(self.colour, str) and COLOUR.fullmatch(self.colour)):
             raise SettingError(
                 f"the colour of {self.name!r} must be #rrggbb or the name of one, but is {self.colour!r}"
             )
 
 
 def saved(pick: Fault | Horizon, looks: dict | None = None) -> SavedPick:
-    """A pick of an interpretation, as it is saved."""
+    """A pick of an interpretation, as it is saved; SettingError if it has other looks than a colour and visible."""
+    if unknown := set(looks or {}) - {"colour", "visible"}:
+        raise SettingError(f"the looks of {pick.name!r} may be colour and visible, but not {', '.join(unknown)}")
     pieces = (pick.points,) if isinstance(pick, Fault) else pick.pieces
     return SavedPick(pick.name, tuple(tuple(map(tuple, piece.tolist())) for piece in pieces), **(looks or {}))

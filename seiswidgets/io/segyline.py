@@ -19,6 +19,8 @@ PLACES = ((181, 185), (73, 77), (81, 85))  # of the midpoint; source and receive
 WINDOW = 65_536  # headers read at a time
 COUNTED = 1_000_000  # headers that are looked at to tell which lines a volume holds that is no full grid
 EVEN = 0.05  # of the spacing: what a step may differ from it, beside the rounding of the positions
+SCALARS = (0, 1, 10, 100, 1000, 10_000)  # of positions, or below 0; 0 is taken for 1
+DEGREES, CLOSE = (360, 90), 0.005  # positions within these, and no farther apart, cannot be metres or feet
 STRAIGHT = 0.01  # of its length: by how much a line may be longer than the way from end to end
 
 
@@ -237,6 +239,11 @@ def course(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
     if not steps.any():
         raise DataError(_missing(headers, traces))
     typical = float(np.median(steps))
+    if typical < CLOSE and np.abs(x).max() <= DEGREES[0] and np.abs(y).max() <= DEGREES[1]:
+        raise DataError(
+            f"{headers.layout.path} has positions {typical:.2g} apart, all within ±{DEGREES[0]} and ±{DEGREES[1]}, "
+            "which seem to be degrees, and are no distances then; say how far apart its traces are: dx="
+        )
     off = np.abs(steps - typical)
     if off.max() > EVEN * typical + 1.5 * rounding:  # both ends are rounded, in x and in y
         raise DataError(_uneven(headers, traces, steps, int(np.argmax(off))))
@@ -257,6 +264,13 @@ def _uneven(headers, traces, steps, worst):
 def _positions(headers, traces):
     """Positions of traces, and what they are rounded to."""
     scalar = headers("scalar", traces).astype(float)
+    other = scalar[~np.isin(np.abs(scalar), SCALARS)]
+    if len(other):
+        raise DataError(
+            f"{headers.layout.path} has {other[0]:g} as the scalar of its positions (byte {headers.bytes['scalar']} of "
+            "the trace header), which must be 1, 10, 100, 1000 or 10000, or one of these below 0. If it stands at "
+            "another byte, give header_bytes=; or say how far apart the traces are: dx="
+        )
     factor = np.where(scalar < 0, -1 / np.where(scalar == 0, 1, scalar), np.where(scalar == 0, 1, scalar))
     return headers("x", traces) * factor, headers("y", traces) * factor, float(factor.max())
 

@@ -11,6 +11,7 @@ from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io import sessionfile
+from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.document import LARGEST_OURS, check_size
 from seiswidgets.io.paths import user_path
 from seiswidgets.io.savedpicks import SavedPick, saved
@@ -40,6 +41,8 @@ class Session:
     ------
     PickError
         If a fault is not one line, or two faults or two horizons have the same name.
+    SettingError
+        If the source or the plan is something else.
 
     Examples
     --------
@@ -60,6 +63,8 @@ class Session:
     written_by: str = field(default=f"seiswidgets {__version__}", compare=False)
 
     def __post_init__(self):
+        checked_kind(self.source, SectionSource, "source")
+        checked_kind(self.plan, Plan, "plan")
         for picks in (self.faults, self.horizons):
             names = [pick.name for pick in picks]
             if len(set(names)) < len(names):
@@ -90,15 +95,24 @@ class Session:
         plan : Plan, optional
         looks : dict, optional
             ``{("fault", "F1"): {"colour": "#e69f00", "visible": False}, ...}``, of those picks that have any.
+
+        Raises
+        ------
+        SettingError
+            If an argument is of another kind.
+        PickError
+            If the fixed point is none.
         """
+        checked_kind(section, Section, "section")
+        checked_kind(interpretation, Interpretation, "interpretation")
         looks = looks or {}
         return cls(
             source,
             section_sha256(section),
             tuple(saved(fault, looks.get((FAULT, fault.name))) for fault in interpretation.faults),
             tuple(saved(horizon, looks.get((HORIZON, horizon.name))) for horizon in interpretation.horizons),
-            None if fixed is None else (float(fixed[0]), float(fixed[1])),
-            plan or Plan(),
+            None if fixed is None else _point(fixed),
+            Plan() if plan is None else plan,
         )
 
     def save(self, path: str | os.PathLike) -> None:
@@ -174,6 +188,14 @@ class Session:
         """
         section = self.open_section(allow_changed=allow_changed)
         return self.plan.restore(section, self.interpretation, self.fixed, progress)
+
+
+def _point(fixed):
+    try:
+        x, z = (float(value) for value in fixed)
+    except (TypeError, ValueError):
+        raise PickError(f"fixed must be a point (x, z), but is {fixed!r}") from None
+    return x, z
 
 
 def open_session(path: str | os.PathLike, *, allow_outside: bool = False) -> Session:

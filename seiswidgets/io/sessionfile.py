@@ -4,6 +4,7 @@ import os
 import re
 from dataclasses import asdict, fields
 from pathlib import Path
+from reprlib import repr as brief
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError
@@ -215,5 +216,7 @@ def _weights(entry):
     known = [field.name for field in fields(Weights)]
     for name in entry.members():
         if name not in known:
-            raise entry.error(f"an object of weights, {', '.join(known)}")
+            raise DataError(
+                f"{entry.path}: {entry.place} has {brief(name)}, which is no weight; there are {', '.join(known)}"
+            )
     return _made(entry, Weights, **{name: entry[name].number() for name in entry.members()})

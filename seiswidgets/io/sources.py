@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import partial
 from pathlib import Path
+from reprlib import repr as brief
 from types import MappingProxyType
 
 import numpy as np
@@ -17,7 +18,9 @@ from seiswidgets.geology import synthetic
 from seiswidgets.geology.history import Survey
 from seiswidgets.geology.section import Section
 from seiswidgets.io import datasets
+from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.opening import open_section
+from seiswidgets.io.paths import user_path
 
 FILE, SYNTHETIC, DATASET = "file", "synthetic", "dataset"
 NAMES = {  # what a session may call, whatever it says
@@ -52,6 +55,8 @@ class SectionSource:
     ------
     SettingError
         If there is no such kind or name, or a choice is something else.
+    DataError
+        If the path of a file is none.
     """
 
     kind: str
@@ -65,10 +70,11 @@ class SectionSource:
             )
         if self.kind in NAMES and self.name not in NAMES[self.kind]:
             raise SettingError(
-                f"the {self.kind} section must be one of {', '.join(NAMES[self.kind])}, but is {self.name[:60]!r}"
+                f"the {self.kind} section must be one of {', '.join(NAMES[self.kind])}, but is {brief(self.name)}"
             )
+        checked_kind(self.choices, Mapping, "choices")
         choices = {name: _plain(name, value) for name, value in self.choices.items()}
-        object.__setattr__(self, "name", os.path.abspath(self.name) if self.kind == FILE else self.name)
+        object.__setattr__(self, "name", os.path.abspath(user_path(self.name)) if self.kind == FILE else self.name)
         object.__setattr__(self, "choices", MappingProxyType(choices))
 
     @property

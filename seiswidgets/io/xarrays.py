@@ -7,6 +7,7 @@ import numpy as np
 from seiswidgets.errors import SectionError, SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import METRES, SECONDS, Section
+from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.optional import required
 from seiswidgets.io.reports import stages_in_words
 
@@ -22,9 +23,12 @@ def to_xarray(section: Section) -> "xarray.DataArray":
 
     Raises
     ------
+    SettingError
+        If it is no section.
     DataError
         If xarray is not installed.
     """
+    checked_kind(section, Section, "section")
     attributes = {name: getattr(section, name) for name in OF_SECTION if getattr(section, name)}
     array = required("xarray", "to make an xarray.DataArray").DataArray
     return array(
@@ -117,9 +121,12 @@ def displacement(restored: Restoration) -> "xarray.Dataset":
 
     Raises
     ------
+    SettingError
+        If it is no restoration.
     DataError
         If xarray is not installed.
     """
+    checked_kind(restored, Restoration, "restored")
     dataset = required("xarray", "to make an xarray.Dataset").Dataset
     section = restored.original
     places = np.stack(np.meshgrid(section.x, section.z), axis=-1).reshape(-1, 2)

@@ -103,6 +103,8 @@ class RestorationApp(Tabbed, Turning, VBox):
         settings = {"steps": Plan().steps, "restoration": Restoration(section), **settings}
         picks = {"interpretation": interpretation or Interpretation(), "fixed": fixed}
         self._ready = self._pressed = False
+        if not isinstance(source, SectionSource | None):
+            raise SettingError(f"source must be a seiswidgets.SectionSource, but is {source!r}")
         self.source = source
         self._make_parts(section, picks, height)
         self._restorer = Restorer(self._draw, self.status.tell, self._fail)

@@ -197,6 +197,16 @@ def test_a_session_saved_under_the_path_itself_is_found_last(path):
     assert [version.session for version in found(path)] == [session(2), session(1)]
 
 
+def test_the_path_may_begin_with_the_home_folder(path, monkeypatch):
+    monkeypatch.setenv("HOME", str(path.parent))
+    monkeypatch.setenv("USERPROFILE", str(path.parent))
+    for number in (1, 2):
+        with sw.Autosave("~/line.json", **QUICK) as autosave:
+            autosave.save(session(number))
+    assert [version.session for version in found("~/line.json")] == [session(2), session(1)]
+    assert set_aside("~/line.json") == path.with_name("line.before-000002.json")
+
+
 def test_damaged_versions_are_left_out(path):
     with sw.Autosave(path, **QUICK) as autosave:
         for number in range(3):

@@ -137,7 +137,9 @@ def test_a_section_outside_or_changed_must_be_allowed(saved, tmp_path, capsys):
     call = ["restore", str(saved), "--out", str(tmp_path / "out")]
     for allowed, status, told in [
         ([], 1, "lies outside the session's folder"),
+        ([], 1, "or open the session with --allow-outside if you trust it"),
         (["--allow-outside"], 1, "is not the one that the session was made on"),
+        (["--allow-outside"], 1, "find the old one, or allow it by --allow-changed"),
         (["--allow-outside", "--allow-changed"], 0, "2 steps"),
     ]:
         assert command.main([*call, *allowed]) == status
@@ -165,6 +167,16 @@ def test_the_bar_fills_where_somebody_watches(saved, tmp_path, capsys, monkeypat
     assert filled == sorted(filled)
     assert filled[-1] > filled[0]
     assert lines[-1].strip() == f"{saved}: 2 steps, in {tmp_path / 'out' / 'session-report.txt'}"
+
+
+def test_the_bar_fits_a_narrow_terminal(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    bar = command.Bar("a folder/" * 20 + "session.json")
+    bar.show(1, 2, 3)
+    told = capsys.readouterr().err
+    assert len(told) < 80
+    assert "session.json [" in told
 
 
 def test_version_help_and_wrong_calls():

@@ -391,6 +391,7 @@ def test_exports_that_are_not_as_documented_are_refused(tmp_path, kind, text, ma
         ([(1, 1), (1, 1)], "along= must be"),
         (lambda x, y, trace: x[:1], r"must return a finite number for each of 2 points"),
         (lambda x, y, trace: x * np.nan, r"must return a finite number"),
+        (lambda x, y, trace: "left", r"must return a finite number for each of 2 points, but returned 'left'"),
     ],
 )
 def test_a_place_on_the_section_must_be_found(tmp_path, along, match):

@@ -180,6 +180,22 @@ def test_angles_are_no_distances(save):
         sw.open_section(save(RAMP, headers), z_unit="m")
 
 
+def test_angles_that_do_not_say_so_are_no_distances(save):
+    degrees = [{181: 51_234 + 3 * trace, 185: 539_876, 71: -10_000} for trace in range(3)]
+    with pytest.raises(sw.DataError, match=r"positions 0.0003 apart, .* seem to be degrees.* dx="):
+        sw.open_section(save(RAMP, degrees), z_unit="m")
+
+
+@pytest.mark.parametrize("scalar", [31_072, -32_768, 7])  # the first is -100,000 in a field too small for it
+def test_a_scalar_that_is_none_is_not_taken(save, scalar):
+    headers = [{181: 300 * trace, 71: scalar} for trace in range(3)]
+    path = save(RAMP, headers)
+    with pytest.raises(sw.DataError, match=rf"has {scalar} as the scalar of its positions \(byte 71 .* dx="):
+        sw.open_section(path, z_unit="m")
+    assert sw.open_section(path, z_unit="m", dx=25).dx == 25
+    assert sw.preview(path).needed == ("dx", "z_unit or velocity")
+
+
 def test_time_or_depth_is_asked_for(save):
     with pytest.raises(sw.SettingError, match=r'line.sgy does not say whether .* velocity= .* z_unit="m"'):
         sw.open_section(save(RAMP, straight(3)))

@@ -388,7 +388,10 @@ def test_the_examples_in_the_docs_open(tmp_path, case):
         ),
         (lambda d: d["plan"]["steps"][0].update(picks="F1"), r"plan.steps\[0\].picks must be a list"),
         (lambda d: d["plan"]["weights"].update(edge=-1), "plan.weights: weight edge must be a number of 0 or more"),
-        (lambda d: d["plan"]["weights"].update(hedge=1), "plan.weights must be an object of weights, mean_value"),
+        (
+            lambda d: d["plan"]["weights"].update(hedge=1),
+            "plan.weights has 'hedge', which is no weight; there are mean_value",
+        ),
         (lambda d: d["plan"].update(solver="magic"), "plan: solver must be 'gauss-newton' or"),
         (lambda d: d["plan"].update(spacing="wide"), "plan.spacing must be a number"),
     ],

@@ -132,6 +132,11 @@ def test_a_restoration_set_from_code_is_shown_and_not_made_again(app, case):
         app.restoration = sw.Restoration(sw.synthetic.planar_fault().section)
 
 
+def test_a_source_that_is_none_is_refused(case):
+    with pytest.raises(sw.SettingError, match=r"source must be a seiswidgets.SectionSource, but is 'line.sgy'"):
+        sw.RestorationApp(case.section, source="line.sgy")
+
+
 def test_dragging_restores_as_it_moves_and_in_full_at_rest(app, case, monkeypatch):
     monkeypatch.setattr(restorer, "BUDGET", 10.0)
     frames = drawn_frames(app, monkeypatch)

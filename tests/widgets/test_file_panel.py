@@ -162,6 +162,8 @@ def test_positions_that_are_of_no_use_are_said_before_opening(app, tmp_path):
     opener = look(app, tmp_path / "uneven.sgy")
     assert "unevenly spaced traces: most are 25 apart" in opener.fields._note.value
     assert "how far apart they shall count: “traces apart”" in opener.fields._note.value
+    load(app, tmp_path / "uneven.sgy", dx="0")
+    assert "uneven.sgy: “traces apart” must be above 0, but is 0" in opener.notice.text
     (tmp_path / "old.sgy").write_bytes(segy_bytes(traces, [{73: x} for x in (0, 25, 50, 75)]))
     assert "give “other header bytes” {" in unescape(look(app, tmp_path / "old.sgy").fields._note.value)
 
@@ -175,6 +177,8 @@ def test_a_matrix_takes_the_places_of_its_corners(app, tmp_path):
     assert "left edge must be a finite number, but is ''" in opener.notice.text
     load(app, tmp_path / "matrix.npy", x_min="0", x_max="far")
     assert "right edge must be a finite number, but is 'far'" in opener.notice.text
+    load(app, tmp_path / "matrix.npy", x_min="10", x_max="-5")
+    assert "the right edge must be more than the left edge, 10, but is -5" in opener.notice.text
     assert app.section.extent == (100.0, 500.0, 0.0, 50.0)
 
 
@@ -444,7 +448,7 @@ def test_what_an_export_does_not_say_is_asked_for(app, tmp_path):
     assert "export.txt: its format cannot be told by its suffix; give “format”" in take(picks, tmp_path / "export.txt")
     picks.format.value = "cps3-horizons"
     assert picks._of_exports.layout.display == ""
-    assert picks.x_unit.options[0] == ("choose: the file does not say", None)
+    assert picks.x_unit.options[0][0] == "choose: the file does not say"
     assert "choose what “x comes from”" in take(picks, tmp_path / "export.txt")
     picks.along.value = "x"
     assert "does not say its x_unit; give “unit of x”" in take(picks, tmp_path / "export.txt")
@@ -453,6 +457,14 @@ def test_what_an_export_does_not_say_is_asked_for(app, tmp_path):
     assert "left out" in picks.notice.text
     np.testing.assert_array_equal(app.interpretation.horizons[0].pieces[0], [[100, 200], [300, 260]])
     assert "give the path" in take(picks, "")
+
+
+def test_what_is_not_chosen_any_more_is_shown(app):
+    picks = app.files.picks
+    for chooser in (picks.format, picks.x_unit, picks.z_unit, picks.along):
+        chooser.index = 2
+        chooser.index = 0  # as a page tells it
+        assert chooser.index == 0
 
 
 def test_places_on_a_map_are_taken_along_the_line_of_the_section(app, tmp_path):

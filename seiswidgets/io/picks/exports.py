@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from reprlib import repr as brief
 
 import numpy as np
 import shapely
@@ -152,11 +153,15 @@ def _positions(path, nodes, seismic, choices):
 
 
 def _answer(along, x, y, trace):
-    found = np.asarray(along(x, y, trace), float)
+    answer = along(x, y, trace)
+    try:
+        found = np.asarray(answer, float)
+    except (TypeError, ValueError):
+        found = np.array(np.nan)
     if found.shape != x.shape or not np.isfinite(found).all():
         raise DataError(
-            f"the function given as along= must return a finite number for each of {len(x)} points, but returned an "
-            f"array of shape {found.shape}"
+            f"the function given as along= must return a finite number for each of {len(x)} points, but returned "
+            f"{brief(answer)}, of shape {found.shape}"
         )
     return found
 

@@ -5,6 +5,7 @@ import os
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import METRES, Section
+from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.document import LARGEST_OURS, check_size, shortened
 from seiswidgets.io.paths import user_path
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
@@ -62,7 +63,7 @@ def read_picks(
     DataError
         If the file cannot be read as picks; the message names the file, the place in it, and what to do.
     SettingError
-        If the format is not known, or a choice has no meaning for it.
+        If the format is not known, a choice has no meaning for it, or an argument is of another kind.
 
     Warns
     -----
@@ -70,6 +71,9 @@ def read_picks(
         If single points of an export were left out, because they make no line.
     """
     path = user_path(path)
+    checked_kind(section, Section, "section")
+    if z_up not in (True, False):  # "no" would turn the picks over
+        raise SettingError(f"z_up must be True or False, but is {z_up!r}")
     chosen = _format(path, format, (*OURS, *EXPORTS))
     if chosen in OURS:
         if along is not None or line is not None:
@@ -117,9 +121,11 @@ def write_picks(
     DataError
         If the file cannot be written, or is too large to be read again.
     SettingError
-        If the format is not one of these.
+        If the format is not one of these, or an argument is of another kind.
     """
     path = user_path(path)
+    checked_kind(interpretation, Interpretation, "interpretation")
+    checked_kind(section, Section, "section")
     module = OURS[_format(path, format, tuple(OURS))]
     text = module.text(interpretation, section.x_unit, section.z_unit)
     try:

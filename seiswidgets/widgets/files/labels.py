@@ -21,12 +21,16 @@ LABELS = {
     "z_unit": "unit of z",
     "z_up": "z grows upwards",
 }
-KEYWORD = re.compile(rf"(?<![\w./-])({'|'.join(LABELS)})=(True\b|(?=[\s,.;:)]|$)|(?={{))")
+KEYWORD = re.compile(
+    rf"(?<![\w./-])(?:({'|'.join(LABELS)})=(?:True\b|(?=[\s,.;:)]|$)|(?={{))|(dx|dz|x_unit|z0|z_unit)(?= must be ))"
+)
 
 
 def in_labels(text: str) -> str:
-    """A message with “traces apart” where it says dx=, and so on."""
-    return KEYWORD.sub(lambda match: f"“{LABELS[match[1]]}”" + " " * text.startswith("{", match.end()), text)
+    """A message with “traces apart” where it says dx=, or what dx must be, and so on."""
+    return KEYWORD.sub(
+        lambda match: f"“{LABELS[match[1] or match[2]]}”" + " " * text.startswith("{", match.end()), text
+    )
 
 
 def counted(picks: Interpretation | Session) -> str:

@@ -20,14 +20,15 @@ from seiswidgets.widgets.panes.canvas import LOCK
 from seiswidgets.widgets.picking.drawing import Drawing
 
 OURS = "by the suffix: GeoJSON or CSV"
+UNCHOSEN = ""  # ipywidgets takes a None, chosen from a list, for nothing, and shows an empty field
 STATED, NOT_STATED = "as the file says", "choose: the file does not say"
 STATES = {  # of x and z
-    None: (STATED, STATED),
+    UNCHOSEN: (STATED, STATED),
     "opendtect-horizons": (NOT_STATED, "as the file says, if it does"),
 }
 POINTS, SEGY = "points", "segy"
 PLACES = {
-    "choose: the file has places on a map": None,
+    "choose: the file has places on a map": UNCHOSEN,
     "the map's X": "x",
     "the map's Y": "y",
     "the way along the line, as its SEG-Y file has it": SEGY,
@@ -58,8 +59,8 @@ class PicksFiles(VBox):
         self._app = app
         self.file, self.notice = FileField("picks: path of a .geojson, .csv or exported file"), Question()
         self.chore = Chore(self.notice, lambda: "The import was cancelled; the picks are as they were.")
-        self.format = _chooser("format", {OURS: None, **{name: name for name in EXPORTS}})
-        self.x_unit, self.z_unit = _chooser("unit of x", {}), _chooser("unit of z", {})
+        self.format = _chooser("format", {OURS: UNCHOSEN, **{name: name for name in EXPORTS}})
+        self.x_unit, self.z_unit = (_chooser(f"unit of {axis}", {STATED: UNCHOSEN}) for axis in "xz")
         self.z_up = Checkbox(description="z grows upwards in the file", indent=False)
         self.along = _chooser(LABELS["along"], PLACES)
         self.points = _text("points of the line", "X Y of its first trace; X Y of its last, in the unit of x")
@@ -91,7 +92,8 @@ class PicksFiles(VBox):
         """
         if not self.file.path:
             raise SettingError("give the path of a file of picks, or upload one")
-        choices = {"format": self.format.value, "x_unit": self.x_unit.value, "z_unit": self.z_unit.value}
+        said = {"format": self.format, "x_unit": self.x_unit, "z_unit": self.z_unit}
+        choices = {name: chooser.value or None for name, chooser in said.items()}
         if self.format.value:
             along, line = self._along(), self.line.value.strip() or None
             choices |= {"z_up": self.z_up.value, "along": along, "line": line}
@@ -128,7 +130,7 @@ class PicksFiles(VBox):
 
     def _along(self):
         """Where on the section places of the file are, as `read_picks` takes it; or SEGY."""
-        if self.along.value is None:
+        if self.along.value == UNCHOSEN:
             raise SettingError(f"the file has places (X, Y) on a map: choose what “{LABELS['along']}”")
         return points_of(self.points.value) if self.along.value == POINTS else self.along.value
 
@@ -152,9 +154,9 @@ class PicksFiles(VBox):
     def _take_format(self, change=None):
         """Ask what the format does not say."""
         states_x, states_z = STATES.get(self.format.value, (NOT_STATED, NOT_STATED))
-        self._of_exports.layout.display = "none" if self.format.value is None else ""
-        _offer(self.x_unit, {states_x: None, **{name: name for name in METRES}})
-        _offer(self.z_unit, {states_z: None, **{name: name for name in (*METRES, *SECONDS)}})
+        self._of_exports.layout.display = "none" if self.format.value == UNCHOSEN else ""
+        _offer(self.x_unit, {states_x: UNCHOSEN, **{name: name for name in METRES}})
+        _offer(self.z_unit, {states_z: UNCHOSEN, **{name: name for name in (*METRES, *SECONDS)}})
 
     def _take_along(self, change=None):
         self.points.layout.display = "" if self.along.value == POINTS else "none"

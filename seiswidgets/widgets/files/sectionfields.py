@@ -71,7 +71,7 @@ class SectionFields(VBox):
         if line != ALL:
             said[line] = number
         if "x_min" in said:
-            said["extent"] = [said.pop(name) for name in EXTENT]
+            said["extent"] = _extent({name: said.pop(name) for name in EXTENT})
         return {name: value for name, value in said.items() if value is not None}
 
     def _value(self, name):
@@ -158,6 +158,16 @@ class SectionFields(VBox):
 
     def _choose(self, name, words, options):
         self.fields[name] = Dropdown(options=options, description=words, style=STYLE, layout=Layout(width="auto"))
+
+
+def _extent(edges):
+    """The edges in their order, each of which must be beyond the one across from it."""
+    for low, high in (("x_min", "x_max"), ("z_min", "z_max")):
+        if not edges[low] < edges[high]:
+            raise SettingError(
+                f"the {EXTENT[high]} must be more than the {EXTENT[low]}, {edges[low]:g}, but is {edges[high]:g}"
+            )
+    return list(edges.values())
 
 
 def _line_number(kind, text):
