@@ -24,7 +24,9 @@ nb_execution_mode = "cache"  # a notebook runs again when its code has changed
 nb_execution_cache_path = str(Path(__file__).parent / "_build" / "cache")
 nb_execution_excludepatterns = [] if "SEISWIDGETS_DATA_DIR" in os.environ else ["06_real_sections.ipynb"]
 nb_execution_timeout = 120
-nb_mime_priority_overrides = [("html", "image/png", 0)]  # the app's picture, where no kernel can run the app
+# Where no kernel runs them, the app is seen as its picture and an exercise as its question: no page needs widgets.
+nb_mime_priority_overrides = [("html", "image/png", 0), ("html", "text/html", 1)]
+nb_ipywidgets_js = {}
 numpydoc_show_class_members = False
 autodoc_default_options = {"members": True, "member-order": "bysource"}
 autodoc_typehints = "none"  # the docstrings say what is given and in which units
@@ -32,6 +34,7 @@ autodoc_typehints = "none"  # the docstrings say what is given and in which unit
 html_theme = "furo"
 html_title = "seiswidgets"
 html_copy_source = False
+html_show_copyright = False  # LICENSE says it
 
 
 def setup(app):

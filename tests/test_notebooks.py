@@ -33,3 +33,9 @@ def test_the_last_cell_states_what_must_hold(path):
 def test_notebooks_it_names_are_there(path):
     prose = " ".join(cells(path, "markdown"))
     assert set(re.findall(r"`(\d\d_\w+)`", prose)) <= {other.stem for other in NOTEBOOKS}
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_no_section_is_missing(path):
+    numbers = re.findall(r"^## (\d+)\.", "\n".join(cells(path, "markdown")), re.MULTILINE)
+    assert [int(number) for number in numbers] == [*range(1, len(numbers) + 1)]

@@ -9,7 +9,22 @@ from exercises.question import Choice, Feedback, Number
 RIGHT, NOT_YET = "#009e73", "#d55e00"  # of a border only: told apart by the colour-blind, seen on light and dark
 
 
-def ask(question: Number | Choice) -> VBox:
+class Form(VBox):
+    """The form of a question, which readers without a kernel see as its text."""
+
+    def __init__(self, question, *fields):
+        self._question = question
+        super().__init__([HTML(_asked(question)), *fields])
+
+    def _repr_mimebundle_(self, **kwargs):
+        """Beside the form itself what it asks, for pages where nothing can be answered."""
+        bundle = super()._repr_mimebundle_(**kwargs)
+        options = [f"<li>{escape(option)}</li>" for option in getattr(self._question, "options", ())]
+        text = _asked(self._question) + (f"<ul>{''.join(options)}</ul>" if options else "")
+        return bundle and {**bundle, "text/html": text}
+
+
+def ask(question: Number | Choice) -> Form:
     """The form of a question; the same answers can be checked in code, by ``question.check``."""
     answer, button, feedback = _field(question), Button(description="Check"), HTML(_shown(None))
 
@@ -19,7 +34,11 @@ def ask(question: Number | Choice) -> VBox:
     button.on_click(check)
     if isinstance(question, Number):  # a text's value changes when the key Enter is pressed
         answer.observe(check, "value")
-    return VBox([HTML(f"<p><b>Exercise.</b> {escape(question.asked)}</p>"), answer, button, feedback])
+    return Form(question, answer, button, feedback)
+
+
+def _asked(question):
+    return f"<p><b>Exercise.</b> {escape(question.asked)}</p>"
 
 
 def _field(question):

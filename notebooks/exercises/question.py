@@ -1,9 +1,20 @@
 """A question knows its answer, and what a wrong answer may come from. Nothing here knows Jupyter."""
 
 import math
+import re
 from dataclasses import dataclass
 
 Mistakes = tuple[tuple[float | str, str], ...]  # a wrong answer, and the hint that helps who gave it
+
+# What may be written behind a number in a question's unit, and how much of that unit it is.
+WRITTEN = {
+    "m": {**dict.fromkeys(("", "m", "metre", "metres", "meter", "meters"), 1.0), "km": 1e3, "cm": 0.01, "ft": 0.3048},
+    "%": dict.fromkeys(("", "%", "percent"), 1.0),
+    "°": dict.fromkeys(("", "°", "deg", "degree", "degrees"), 1.0),
+    "": dict.fromkeys(("", "x", "×", "times"), 1.0),
+}
+SIGNS = str.maketrans("−–‐‑－,", "-----.")  # what looks like a minus, and a decimal comma
+NUMBER = re.compile(r"[~≈=]?([-+]?[\d.]+(?:e[-+]?\d+)?)(?:/([\d.]+))?(\D*)")
 
 
 @dataclass(frozen=True)
@@ -69,25 +80,36 @@ class Number:
         return self.unit if self.unit in ("", "°") else f" {self.unit}"
 
     def check(self, given: float | str) -> Feedback:
-        """Feedback on a number, or on a text of one, with its unit or without."""
+        """Feedback on a number, or on a text of one, with its unit, another that means the same, or none."""
         value = self._read(given)
         if value is None:
-            unit = f", in {self.unit}" if self.unit else ""
-            return Feedback(False, f"{str(given).strip()!r} is no number. Give one{unit}, such as 12.5.")
+            unit, text = f", in {self.unit}" if self.unit else "", str(given).strip()
+            start = f"{text!r} is no number. Give one" if text else "Give a number"
+            return Feedback(False, f"{start}{unit}, such as 12.5.")
         if abs(value - self.answer) <= self.tolerance:
             return Feedback(True, self.why)
+        return Feedback(False, self._advice(value))
+
+    def _advice(self, value):
+        """What to think of instead of a wrong value."""
+        if abs(value + self.answer) <= self.tolerance:
+            return "That is right but for its sign: leave it out."
+        if self.unit == "%" and 0 < value < 1:
+            return f"{value:g} % is very little. If you mean a share, it is {100 * value:g} %."
         nearest, hint = min(self.mistakes, key=lambda mistake: abs(mistake[0] - value))
         if abs(value - nearest) <= self.tolerance:
-            return Feedback(False, hint)
-        return Feedback(
-            False, f"{value:g}{self._unit} is too {'large' if value > self.answer else 'small'}. {self.hint}"
-        )
+            return hint
+        return f"{value:g}{self._unit} is too {'large' if value > self.answer else 'small'}. {self.hint}"
 
     def _read(self, given):
-        text = str(given).strip().removesuffix(self.unit).strip().replace("−", "-")
+        """A text's number in the question's unit, or None."""
+        found = NUMBER.fullmatch(re.sub(r"\s", "", str(given)).lower().translate(SIGNS))
+        if not found:
+            return None
+        number, divisor, unit = found.groups()
         try:
-            value = float(text)
-        except ValueError:
+            value = float(number) / float(divisor or 1) * WRITTEN[self.unit][unit]
+        except (ValueError, ZeroDivisionError, KeyError):
             return None
         return value if math.isfinite(value) else None
 

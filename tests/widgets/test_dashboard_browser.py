@@ -19,6 +19,8 @@ AXES_SEEN = """() => [...document.querySelectorAll(".seiswidgets-layer .label")]
   label.style.pointerEvents = "";
   return seen;
 })"""
+TABS_CUT = """() => [...document.querySelectorAll(".seiswidgets-pages .lm-TabBar-tabLabel")]
+  .filter((label) => label.scrollWidth > label.clientWidth).map((label) => label.textContent)"""
 
 
 @pytest.fixture
@@ -57,3 +59,7 @@ def test_a_section_is_chosen_and_restored_by_mouse(dashboard):
     expect(dashboard.locator("canvas.seiswidgets-plot")).to_have_count(2)
     assert serious(dashboard) == []
     keep_picture(dashboard, "dashboard-graben")
+
+    dashboard.set_viewport_size({"width": 900, "height": 700})
+    dashboard.wait_for_function("document.querySelector('.seiswidgets-pages').clientWidth < 450")
+    assert dashboard.evaluate(TABS_CUT) == []

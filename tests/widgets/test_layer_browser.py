@@ -84,6 +84,14 @@ def test_lines_labels_and_marks_lie_where_they_belong(bare_layer):
 
     layer.set(window=[0, 150, 0, 50])
     np.testing.assert_allclose(pixels(layer.attributes(".line", "d")[0][0]), np.multiply(expected, 2), atol=0.01)
+
+    colours = ["#f0e442", "#0072b2", "yellow", "none"]
+    named = [Stroke([[30, 20], [60, 40]], colour=colour, label=colour) for colour in colours]
+    numbered = [Mark((50, 50), "cutoff", colour, colour=colour) for colour in colours]
+    layer.set(strokes=states(*named), marks=states(*numbered))
+    pale = layer.page.locator(".seiswidgets-layer .pale")
+    assert pale.all_text_contents() == ["#f0e442", "yellow"] * 2
+
     layer.set(strokes=[], marks=[])
     assert layer.attributes(".stroke, .mark, .name", "class") == []
 

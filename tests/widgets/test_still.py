@@ -7,6 +7,7 @@ from PIL import Image
 import seiswidgets as sw
 from seiswidgets.widgets.panes.overlay import Stroke
 from seiswidgets.widgets.panes.still import LEFT, SIZE, TOP
+from seiswidgets.widgets.restoring import linkedpanes
 from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
 
 
@@ -24,3 +25,13 @@ def test_both_panes_are_seen_with_their_lines():
     assert set(np.flatnonzero(red.any(axis=1))) <= set(range(TOP + SIZE[1] // 2 - 5, TOP + SIZE[1] // 2 + 12))
     assert red[:, : picture.shape[1] // 2].any(axis=0).sum() > 0.9 * SIZE[0]
     assert not red[:, picture.shape[1] // 2 :].any()
+
+
+def test_its_right_side_says_whether_it_is_restored(monkeypatch):
+    case, titles = sw.synthetic.planar_fault(), []
+    panes = LinkedPanes(case.section)
+    monkeypatch.setattr(linkedpanes, "still", lambda sides: titles.append([title for title, _ in sides]))
+    panes.still()
+    panes.restoration = sw.Restoration(case.section, spacing=400).flatten(sw.Horizon([(100, 500), (3900, 500)]))
+    panes.still()
+    assert titles == [["Today", "Not restored yet"], ["Today", "Restored"]]

@@ -112,7 +112,8 @@ class LinkedPanes(VBox):
 
     def still(self) -> str:
         """What both panes show in full, as a PNG in base 64."""
-        return still(self._titled())
+        today, (title, restored) = self._titled()
+        return still([today, (title if self._frame.restoration.stages else "Not restored yet", restored)])
 
     def _repr_mimebundle_(self, **kwargs):
         """Beside the panes themselves a picture of what they show, for readers without a kernel."""

@@ -38,6 +38,7 @@ function drawLabel(group, stroke, pixels, plane) {
   if (!start) return;
   const label = text("name", group, {}, stroke.label);
   label.style.fill = stroke.colour;
+  markPale(label, label);
   const length = label.getComputedTextLength();
   const within = (low, value, high) => Math.max(low, Math.min(value, high));
   label.setAttribute("x", within(ROOM, start.x + AWAY, plane.width - length - ROOM));

@@ -5,8 +5,8 @@ const CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 
 const MARKS = {
   cutoff(group, mark) {
-    element("circle", "disc", group, { r: 8, fill: mark.colour });
-    text("number", group, { y: 3.5 }, mark.text);
+    const disc = element("circle", "disc", group, { r: 8, fill: mark.colour });
+    markPale(text("number", group, { y: 3.5 }, mark.text), disc);
   },
   held(group, mark) {
     element("path", "pin", group, { d: PIN, fill: mark.colour });

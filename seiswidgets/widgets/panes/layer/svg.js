@@ -17,6 +17,12 @@ function text(className, parent, attributes, content) {
   return parent.lastChild;
 }
 
+// Mark a text whose colour, or that of what it lies on, is so pale that white beside it could not be told from it.
+function markPale(label, coloured) {
+  const [red, green, blue] = getComputedStyle(coloured).fill.match(/\d+/g) ?? [0, 0, 0];
+  label.classList.toggle("pale", 0.299 * red + 0.587 * green + 0.114 * blue > 170);
+}
+
 // The d of a path through pixels; null interrupts it.
 function path(pixels) {
   let command = "M";
