@@ -18,6 +18,7 @@ from seiswidgets.widgets.files.tabbed import Tabbed
 from seiswidgets.widgets.files.turning import Turning
 from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.names import Names
+from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.picking.picker import Picker
 from seiswidgets.widgets.restoring.controls import SolverControls
 from seiswidgets.widgets.restoring.frame import Frame
@@ -111,6 +112,7 @@ class RestorationApp(Tabbed, Turning, VBox):
         self._moments = Moments(self.panes, self.picker.redraw)
         super().__init__(self._placed(), **picks, **settings)
         self.add_class("seiswidgets-app")
+        keep_order(self)
         self._tie_parts()
         self._ready = True
         self._restore_soon()

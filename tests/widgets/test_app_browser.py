@@ -271,3 +271,17 @@ BAND = """(ends) => {
   const now = path.match(/[-.\\d]+/g)?.map(Number) ?? [];
   return now.length === 4 && now.every((value, i) => Math.abs(value - ends[i]) < 0.6);
 }"""
+
+
+def test_what_is_drawn_while_a_cell_runs_comes_in_order(open_app):
+    screen = open_app(FEW)
+    fault = screen.points("drawn.faults[0].points[[0, 10, 20, 30]]") - [900, 0]
+    *others, last = screen.pixels(fault)
+    screen.click((300, 900))  # so that the pane has been written to by a handler
+    with screen.opened.kernel_at_work():
+        screen.button("Fault").click()
+        for x, y in others:
+            screen.page.mouse.click(x, y)
+        screen.page.mouse.dblclick(*last)
+    screen.becomes("len(app.interpretation.faults)", 2)
+    screen.nears("app.interpretation.faults[1].points", fault, screen.points("pen.view.pixel").max())

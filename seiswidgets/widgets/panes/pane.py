@@ -10,6 +10,7 @@ from traitlets import Any, Enum, Float, Instance, Int, Unicode, dlink, observe, 
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.messages import TROUBLE
+from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panes.canvas import LOCK, held
 from seiswidgets.widgets.panes.colours import Colouring, clip_limit, colour_map
 from seiswidgets.widgets.panes.gestures import Gesture
@@ -98,6 +99,7 @@ class SectionPane(VBox):
         self.view = self.view if exaggeration is None else self.view.exaggerated(exaggeration)
         dlink((self, "mesh_opacity"), (self.layer, "mesh_opacity"))
         self.layer.on_happening(self._receive)
+        keep_order(self)
 
     def show(self, section: Section, *, moving: bool = False) -> None:
         """Show another section, in the same window unless all of the old one was shown.

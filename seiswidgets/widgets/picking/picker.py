@@ -10,6 +10,7 @@ from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
+from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panes.canvas import LOCK
 from seiswidgets.widgets.panes.gestures import Gesture, Key, Press, Release
 from seiswidgets.widgets.panes.pane import SectionPane
@@ -89,6 +90,7 @@ class Picker(VBox):
         self.list = PicksList(self.pen, self.refresh)
         self.toolbar = self._made_toolbar()
         super().__init__([self.toolbar, self.pane, self.list])
+        keep_order(self)
         self.pane.observe(self._take_view, "view")
         self.attach(self.pane, lambda: Sight(self.pane.view))
         for name, value in settings.items():

@@ -1,0 +1,26 @@
+from comm.base_comm import BaseComm
+from ipywidgets import Button, HBox, VBox
+
+from seiswidgets.widgets.order import ROUTE, keep_order
+
+
+def threads(*widgets):
+    """Where messages go that came by another thread, as ipykernel asks the widget; None is the main one."""
+    return [getattr(widget.comm, ROUTE)({}, "other") for widget in widgets]
+
+
+def test_all_messages_to_a_widget_and_what_it_will_hold_go_to_the_main_thread(monkeypatch):
+    monkeypatch.setattr(BaseComm, ROUTE, lambda comm, data, default: default, raising=False)
+    inner, late, apart = Button(), Button(), Button()
+    row = HBox([inner])
+    box = VBox([row])
+    keep_order(box)
+    row.children = [inner, late]
+    assert threads(box, row, inner, late) == [None] * 4
+    assert threads(apart) == ["other"]
+
+
+def test_other_versions_of_the_kernel_are_left_alone():
+    button = Button()
+    keep_order(button)
+    assert not hasattr(button.comm, ROUTE)
