@@ -93,7 +93,7 @@ class Number:
     def _advice(self, value):
         """What to think of instead of a wrong value."""
         if abs(value + self.answer) <= self.tolerance:
-            return "That is right but for its sign: leave it out."
+            return f"That is right but for its sign: {'leave it out' if value < 0 else 'it is below 0'}."
         if self.unit == "%" and 0 < value < 1:
             return f"{value:g} % is very little. If you mean a share, it is {100 * value:g} %."
         nearest, hint = min(self.mistakes, key=lambda mistake: abs(mistake[0] - value))
