@@ -118,7 +118,7 @@ def test_a_reloaded_page_and_a_second_view_show_the_same(open_app):
     screen.opened.command("docmanager:save")
     screen.opened.reload()
     screen.plots.nth(3).wait_for()
-    assert screen.pictures(lambda pictures: len(pictures) == 4) == first
+    screen.pictures(lambda pictures: pictures == first)
     assert [screen.lines(number) for number in range(4)] == lines
 
 
