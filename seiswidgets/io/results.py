@@ -1,14 +1,13 @@
 """Sections out: SEG-Y and .npz."""
 
 from collections.abc import Mapping
-from math import isfinite
-from numbers import Real
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
 from seiswidgets.errors import SettingError
+from seiswidgets.geology.asked import number
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io.choices import OF_SEGY, Choices
@@ -56,9 +55,7 @@ def save_section(
         If the file cannot be written, or ``like`` cannot be read.
     """
     path = checked_path(path, SUFFIXES)
-    line = Choices(inline=inline, crossline=crossline, traces=traces, header_bytes=header_bytes, x0=x0)
-    if not (isinstance(x0, Real) and isfinite(x0)):
-        raise SettingError(f"x0 must be a finite number, but is {x0!r}")
+    line = Choices(inline=inline, crossline=crossline, traces=traces, header_bytes=header_bytes, x0=number("x0", x0))
     done = section if isinstance(section, Restoration) else None
     section = section.section if done else section
     if not isinstance(section, Section):

@@ -12,6 +12,7 @@ from seiswidgets.geology.plan import Plan, Task
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.weights import Weights
+from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.sources import SectionSource
 from seiswidgets.widgets.files.sessionbar import SessionBar
 from seiswidgets.widgets.files.tabbed import Tabbed
@@ -104,8 +105,8 @@ class RestorationApp(Tabbed, Turning, VBox):
         settings = {"steps": Plan().steps, "restoration": Restoration(section), **settings}
         picks = {"interpretation": interpretation or Interpretation(), "fixed": fixed}
         self._ready = self._pressed = False
-        if not isinstance(source, SectionSource | None):
-            raise SettingError(f"source must be a seiswidgets.SectionSource, but is {source!r}")
+        if source is not None:
+            checked_kind(source, SectionSource, "source")
         self.source = source
         self._make_parts(section, picks, height)
         self._restorer = Restorer(self._draw, self.status.tell, self._fail)
@@ -230,8 +231,7 @@ class RestorationApp(Tabbed, Turning, VBox):
         self.picker.redraw()
         self.status.hint("")
         self._set_outdated(False)
-        ratio = frame.ratio_before.ratio.ravel() if frame.restoration.stages else []
-        self.histogram.show(ratio)
+        self.histogram.show(frame.ratio_before.ratio.ravel() if frame.restoration.stages else [])
 
     def _show_whole(self, frame, restoration):
         self.panes.show(frame)

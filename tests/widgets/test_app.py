@@ -133,7 +133,7 @@ def test_a_restoration_set_from_code_is_shown_and_not_made_again(app, case):
 
 
 def test_a_source_that_is_none_is_refused(case):
-    with pytest.raises(sw.SettingError, match=r"source must be a seiswidgets.SectionSource, but is 'line.sgy'"):
+    with pytest.raises(sw.SettingError, match="source must be a SectionSource, but is a str"):
         sw.RestorationApp(case.section, source="line.sgy")
 
 
