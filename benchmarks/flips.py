@@ -45,7 +45,7 @@ def restored(seed):
             break
         report = after.stages[-1].report
         state = ("settled" if report.converged else "not settled") + (
-            ", with a constraint unmet" if report.unmet else ""
+            ", with a constraint unmet" if report.findings else ""
         )
         stages.append(
             {"seed": seed, "state": f"{kind}: {state}", "ours": flips(after), "theirs": refused(solve, before)}

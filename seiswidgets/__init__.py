@@ -21,6 +21,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "geology": ["synthetic"],
         "geology.cutoffs": ["heave", "throw"],
+        "geology.findings": ["Finding"],
         "geology.likeness": ["likeness"],
         "geology.picks": ["Fault", "Horizon", "Interpretation"],
         "geology.plan": ["Plan", "Step"],

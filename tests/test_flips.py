@@ -19,7 +19,7 @@ def test_no_triangle_flips_and_points_come_back(seed):
     unfaulted = sw.Restoration(section, spacing=SPACING).unfault(faults, horizons, fixed=fixed)
     restored = unfaulted.flatten(horizons[0])
     assert_no_flips(restored)
-    if any(stage.report.unmet or not stage.report.converged for stage in restored.stages):
+    if any(stage.report.findings or not stage.report.converged for stage in restored.stages):
         return  # blocks may still overlap, and two places be one
     x_min, x_max, z_min, z_max = section.extent
     points = np.random.default_rng(seed).uniform((x_min, z_min), (x_max, z_max), (1000, 2))
@@ -37,6 +37,6 @@ def test_picks_that_contradict_each_other_are_named():
     rising = sw.Horizon(third.pieces[0], first.pieces[1], name="rising")
     restored = sw.Restoration(case.section, spacing=SPACING).unfault(fault, [falling, rising], fixed=case.fixed)
     assert_no_flips(restored)
-    unmet = restored.stages[-1].report.unmet
+    texts = [finding.text for finding in restored.stages[-1].report.findings]
     for name in ("falling", "rising"):
-        assert any(text.startswith(f"horizon {name} at fault F1: its cut-offs are still") for text in unmet)
+        assert any(text.startswith(f"horizon {name} at fault F1: its cut-offs are still") for text in texts)

@@ -13,6 +13,7 @@ from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Le
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
 from seiswidgets.geology.faultlines import merged
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.report import BedReport
 from seiswidgets.geology.solving import Options, laid_before, solved, vertex_masses, warm_start
@@ -78,8 +79,8 @@ def _achieved(name, laid, level, vertices, ground):
     off = vertices[level.vertices, 1] - level.datum
     flatness = float(np.sqrt(np.mean(off**2)) / ground.section.metres[1])
     report = BedReport(name, length_change([laid.edges], laid.mesh.vertices, vertices), flatness)
-    unmet = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
-    return {"beds": (report,), "unmet": unmet}
+    findings = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
+    return {"beds": (report,), "findings": findings}
 
 
 def _bed(ground, name, pieces, task):
@@ -106,7 +107,8 @@ def _mean_level(ends):
 
 
 def _still_uneven(name, off):
-    return f"horizon {name}: it is still up to {np.abs(off).max():.2g} m off its datum"
+    text = f"horizon {name} is still up to {np.abs(off).max():.2g} m off its datum"
+    return Finding("problem", "datum", text, name)
 
 
 def _inside(lines, ground, name):

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from html import escape
 
+from seiswidgets.geology.findings import Finding
+
 
 @dataclass(frozen=True)
 class CutOffReport:
@@ -63,8 +65,8 @@ class Report:
         In square metres and metres.
     beds : tuple of BedReport
         Flatness in the unit of z.
-    unmet : tuple of str
-        Which constraints gave way, in words, by more than a tenth of a sample.
+    findings : tuple of Finding
+        What the user should know: constraints that gave way by more than a tenth of a sample, and the like.
     x_unit, z_unit : str
     """
 
@@ -84,7 +86,7 @@ class Report:
     cutoffs: tuple = ()
     seams: tuple = ()
     beds: tuple = ()
-    unmet: tuple = ()
+    findings: tuple[Finding, ...] = ()
     x_unit: str = "m"
     z_unit: str = "m"
 
@@ -113,7 +115,7 @@ class Report:
         for bed in self.beds:
             level = "" if bed.flatness is None else f", {bed.flatness:.2g} {self.z_unit} RMS from the datum"
             rows.append((f"horizon {bed.horizon}", f"bed length {bed.length_change:+.2%}{level}"))
-        return rows + [("gave way", text) for text in self.unmet]
+        return rows + [(finding.severity, finding.text) for finding in self.findings]
 
     def __str__(self):
         rows = self.rows()

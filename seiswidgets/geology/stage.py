@@ -13,6 +13,7 @@ from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.core.rigid import part_of_motion
 from seiswidgets.core.weld import outline
+from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.parts import parts, split_piece
 from seiswidgets.geology.report import Report
@@ -73,10 +74,11 @@ class Stage:
             return self.whole.report
         areas = triangle_areas(self.vertices, self.mesh.triangles)
         found = self.found()
-        overlap, unmet = max(0.0, float(areas.sum() - self.outline.area)), found.unmet
+        overlap, findings = max(0.0, float(areas.sum() - self.outline.area)), found.findings
         if overlap > self.ground.slack * self.spacing:
-            unmet = (*unmet, f"room: {overlap:.3g} m² of rock lie on other rock{self._place_of_overlap()}")
-        return replace(found, overlap=overlap, unmet=unmet)
+            text = f"{overlap:.3g} m² of rock lie on other rock{self._place_of_overlap()}"
+            findings = (*findings, Finding("problem", "overlap", text))
+        return replace(found, overlap=overlap, findings=worst_first(findings))
 
     def _place_of_overlap(self):
         """Where a triangle lies whose centre another triangle holds as well."""

@@ -18,6 +18,7 @@ from seiswidgets.core.weld import welded
 from seiswidgets.errors import PickError
 from seiswidgets.geology.cutoffs import CutOffs, Drawing
 from seiswidgets.geology.faultlines import EDGES, fault_lines, with_points
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.parts import parts
 from seiswidgets.geology.report import BedReport, CutOffReport, SeamReport
@@ -115,7 +116,7 @@ def _achieved(blocks, solution, ground):
         BedReport(name, length_change(edges, blocks.mesh.vertices, solution.vertices))
         for name, edges in blocks.beds.items()
     )
-    return {"seams": seams, "cutoffs": cutoffs, "beds": beds, "unmet": (*apart, *gave_way)}
+    return {"seams": seams, "cutoffs": cutoffs, "beds": beds, "findings": (*apart, *gave_way)}
 
 
 def _blocks(ground, faults, horizons, task):
@@ -246,7 +247,8 @@ def _seams(blocks, solution, ground):
             widest = max(widest, float(np.max(np.abs(distances), initial=0)))
         seams.append(SeamReport(name, gap, overlap, widest))
         if widest > ground.slack:
-            gave_way.append(f"contact at fault {name}: its sides are up to {widest:.2g} m apart or overlapping")
+            text = f"the sides of fault {name} are up to {widest:.2g} m apart or overlapping"
+            gave_way.append(Finding("warning", "contact", text, name))
     return tuple(seams), gave_way
 
 
@@ -260,7 +262,9 @@ def _cutoffs(blocks, vertices, ground):
         heave = (before[0, 0] - before[1, 0]) * (1 if bottom[0] >= top[0] else -1)
         reports.append(CutOffReport(pair.fault, pair.horizon, float(before[0, 1] - before[1, 1]), float(heave), misfit))
         if misfit > ground.slack:
-            apart.append(f"horizon {pair.horizon} at fault {pair.fault}: its cut-offs are still {misfit:.2g} m apart")
+            text = f"horizon {pair.horizon} at fault {pair.fault}: its cut-offs are still {misfit:.2g} m apart"
+            where = tuple(map(float, before[0]))
+            apart.append(Finding("problem", "cut-off", text, pair.horizon, where))
     return tuple(reports), apart
 
 
