@@ -7,7 +7,7 @@ import shapely
 from shapely import LineString
 
 from seiswidgets.errors import PickError
-from seiswidgets.geology import asked
+from seiswidgets.geology import validation
 from seiswidgets.geology.flattening import joined
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
@@ -16,7 +16,7 @@ from seiswidgets.geology.stage import Stage
 
 def carried_fault(original: Section, stages: Sequence[Stage], fault: Fault) -> np.ndarray:
     """The points of a fault after some stages, shape (n, 2)."""
-    lines = [LineString(asked.rock_points(original, fault.points, f"fault {fault.name!r}"))]
+    lines = [LineString(validation.rock_points(original, fault.points, f"fault {fault.name!r}"))]
     for stage in stages:
         lines = [moved for line in lines for moved in stage.carried_fault(line)]
     if not lines:
@@ -27,7 +27,7 @@ def carried_fault(original: Section, stages: Sequence[Stage], fault: Fault) -> n
 def carried_horizon(original: Section, stages: Sequence[Stage], horizon: Horizon) -> list[LineString]:
     """The pieces of a horizon after some stages, joined where they have come to meet."""
     lines = [
-        LineString(asked.rock_points(original, piece, f"piece {number} of horizon {horizon.name!r}"))
+        LineString(validation.rock_points(original, piece, f"piece {number} of horizon {horizon.name!r}"))
         for number, piece in enumerate(horizon.pieces, 1)
     ]
     for stage in stages:
@@ -38,10 +38,10 @@ def carried_horizon(original: Section, stages: Sequence[Stage], horizon: Horizon
 def carried_point(original: Section, stages: Sequence[Stage], fixed) -> np.ndarray:
     """The point that is to be held, after some stages, shape (2,)."""
     try:
-        point = asked.points(fixed).reshape(1, 2)
+        point = validation.as_points(fixed).reshape(1, 2)
     except ValueError:
         raise PickError(f"fixed must be one point (x, z), but is {fixed!r}") from None
-    point = asked.rock_points(original, point, "fixed")
+    point = validation.rock_points(original, point, "fixed")
     for stage in stages:
         point = stage.map.forward(point)
     return point[0]

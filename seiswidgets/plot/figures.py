@@ -12,7 +12,7 @@ from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.plot.frame import WIDTH, Window, framed
 from seiswidgets.plot.palette import AREA_RATIO
-from seiswidgets.plot.pictures import (
+from seiswidgets.plot.panels import (
     DONE,
     amplitude_limit,
     carried,

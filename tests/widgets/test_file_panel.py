@@ -15,7 +15,7 @@ import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.files import picksfiles, resultfiles, sectionopener
-from seiswidgets.widgets.files.filefield import FileField
+from seiswidgets.widgets.files.file_field import FileField
 from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.widgets.files import line, message, send, volume
 from tests.widgets.hands import appear, draw
@@ -227,15 +227,15 @@ def test_opening_can_be_cancelled(app, case, tmp_path, monkeypatch):
     opener = look(app, line(tmp_path / "line.sgy"))
     opener.load()
     assert begun.wait(LONG)
-    assert opener.chore.layout.display == ""
+    assert opener.job.layout.display == ""
     assert opener._open.disabled
-    opener.chore._cancel.click()
+    opener.job._cancel.click()
     assert "Stopping" in opener.notice.text
     go_on.set()
     assert opener.wait(LONG)
     assert app.section is case.section
     assert "cancelled" in opener.notice.text
-    assert opener.chore.layout.display == "none"
+    assert opener.job.layout.display == "none"
     assert not opener._open.disabled
 
 
@@ -277,12 +277,12 @@ def test_picks_are_kept_or_dropped_as_the_user_says(restored, case, tmp_path):
     answer(opener.notice, "Keep the picks")
     assert app.section is not case.section
     assert app.picker.drawing == drawn
-    assert not app.picker.pen.can_undo
+    assert not app.picker.editor.can_undo
     load(app, line(tmp_path / "line.sgy"))
     assert set(opener.notice.answers) == {"Drop the picks", "Do not open"}
     answer(opener.notice, "Drop the picks")
     assert app.picker.drawing.picks == ()
-    assert not app.picker.pen.can_undo
+    assert not app.picker.editor.can_undo
     assert app.restoration.stages == ()
 
 
@@ -415,7 +415,7 @@ def test_picks_go_out_and_come_in(restored, case, tmp_path, suffix):
     assert take(picks, picks.out.value) == "Read 1 fault and 3 horizons; Undo brings back what was there."
     (fault,) = restored.interpretation.faults
     np.testing.assert_array_equal(fault.points, case.interpretation.faults[0].points)
-    restored.picker.pen.undo()
+    restored.picker.editor.undo()
     restored.picker.refresh()
     assert restored.interpretation.faults == ()
     picks.write()
@@ -429,7 +429,7 @@ def test_picks_that_are_drawn_stay_beside_those_of_a_file(app, tmp_path):
         sw.Fault([(x, 100.0), (x, 900.0)], name) for x, name in ((500.0, "A"), (900.0, "B"), (700.0, "A"))
     )
     app.interpretation = sw.Interpretation([old, other])
-    app.picker.pen.recolour("fault", "A", "#123456")
+    app.picker.editor.recolour("fault", "A", "#123456")
     app.picker.refresh()
     sw.write_picks(sw.Interpretation([new]), tmp_path / "picks.csv", app.section)
     take(app.files.picks, tmp_path / "picks.csv")
@@ -503,7 +503,7 @@ def test_an_import_can_be_cancelled(app, tmp_path, monkeypatch):
     picks.file.text.value = "picks.csv"
     picks.read()
     assert begun.wait(LONG)
-    picks.chore._cancel.click()
+    picks.job._cancel.click()
     go_on.set()
     assert picks.wait(LONG)
     assert "The import was cancelled" in picks.notice.text
@@ -579,7 +579,7 @@ def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path
     assert results.notice.text == "Writing faulted fold-report.json ..."
     assert results._export.disabled
     restored.interpretation = sw.Interpretation()  # goes on, and does not change what is written
-    results.chore._cancel.click()
+    results.job._cancel.click()
     go_on.set()
     assert results.wait(LONG)
     assert results.notice.text == f"The export was cancelled. Wrote into {tmp_path}: faulted fold-report.json."

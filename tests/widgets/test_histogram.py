@@ -4,9 +4,9 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.core.deformation import area_ratio_histogram, colour_span, weighted_percentiles
+from seiswidgets.interaction.ratio_colours import RatioColouring
 from seiswidgets.plot.palette import AREA_RATIO
-from seiswidgets.widgets.panes.ratiocolours import RatioColouring
-from seiswidgets.widgets.restoring.histogram import APART, ratio_ticks
+from seiswidgets.widgets.histogram import APART, ratio_ticks
 
 
 @pytest.fixture
