@@ -1,5 +1,7 @@
 """How alike the two sides of a fault are: whether a restoration has put together what belongs together."""
 
+import warnings
+
 import numpy as np
 import shapely
 from scipy.ndimage import map_coordinates
@@ -42,6 +44,12 @@ def cross_fault_correlation(restoration: Restoration, fault: Fault, gap: int = 2
         )
     left, right = left[both] - left[both].mean(), right[both] - right[both].mean()
     return float(left @ right / max(np.sqrt((left @ left) * (right @ right)), np.finfo(float).tiny))
+
+
+def likeness(restoration: Restoration, fault: Fault, gap: int = 2, width: int = 4) -> float:
+    """Former name of `cross_fault_correlation`; deprecated since 0.1.0, and removed in 0.2.0."""
+    warnings.warn("sw.likeness is now called sw.cross_fault_correlation", DeprecationWarning, stacklevel=2)
+    return cross_fault_correlation(restoration, fault, gap, width)
 
 
 def _samples_along(line, step):

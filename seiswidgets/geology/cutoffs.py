@@ -32,7 +32,7 @@ class CutOffPair:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawing:
+class PickNetwork:
     """The lines of some faults and horizons, ready to be matched with each other.
 
     Attributes
@@ -134,7 +134,9 @@ class Drawing:
 def _cutoff_points(fault, horizon):
     line = LineString(fault.points)
     found = horizon_segments([LineString(piece) for piece in horizon.pieces], [line])
-    (pair,) = Drawing({fault.name: line}, {horizon.name: found}, "x={0[0]:.6g}, z={0[1]:.6g}".format, unit="").cutoffs()
+    (pair,) = PickNetwork(
+        {fault.name: line}, {horizon.name: found}, "x={0[0]:.6g}, z={0[1]:.6g}".format, unit=""
+    ).cutoffs()
     return tuple(np.array(found[index].ends[place].point) for index, place in (pair.hanging_wall, pair.footwall))
 
 

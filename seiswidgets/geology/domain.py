@@ -63,7 +63,7 @@ class RestorationDomain:
             return triangulate(self.outline, lines, self.asked)
         return triangulate_to(self.outline, lines, VERTICES)
 
-    def task(self, *drawn: dict) -> tuple:
+    def fingerprint(self, *drawn: dict) -> tuple:
         """What shapes a stage's mesh, for comparison: two stages with equal tasks have the same mesh.
 
         Parameters

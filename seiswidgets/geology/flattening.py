@@ -32,13 +32,13 @@ class Bed:
     mesh : Mesh
     edges : array, shape (k, 2)
         Those of the horizon.
-    task : tuple
+    fingerprint : tuple
         What it was made for.
     """
 
     mesh: Mesh
     edges: np.ndarray
-    task: tuple
+    fingerprint: tuple
 
 
 def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None, options: Options) -> Stage:
@@ -56,8 +56,8 @@ def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None,
     options : Options
     """
     began = time.perf_counter()
-    task = domain.task({name: pieces})
-    laid = reusable_setup(options.start, task) or _bed(domain, name, pieces, task)
+    fingerprint = domain.fingerprint({name: pieces})
+    laid = reusable_setup(options.start, fingerprint) or _bed(domain, name, pieces, fingerprint)
     mesh, bed = laid.mesh, laid.edges
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
     level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
@@ -83,10 +83,10 @@ def _achieved(name, laid, level, vertices, domain):
     return {"beds": (report,), "findings": findings}
 
 
-def _bed(domain, name, pieces, task):
+def _bed(domain, name, pieces, fingerprint):
     lines = _inside(joined(pieces, domain.spacing), domain, name)
     mesh = domain.mesh(lines)
-    return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), task)
+    return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), fingerprint)
 
 
 def _terms(mesh, bed, level, weights):

@@ -1,8 +1,8 @@
 """What a restoration is to do, as one value: its steps in order, the weights, the mesh; and how it is carried out.
 
-A quick look (``RestorationJob.coarse``) is the same restoration, but approximate: on a mesh three times as coarse, with lines
-that lose what is small beside its spacing, and in two iterations a step from the look before. Where lines are smooth it
-lies within a few metres of the full one, about one sample.
+A preview (``RestorationJob.coarse``) approximates the restoration: its mesh is three times as coarse, its lines are
+simplified to match, and each step takes two iterations from the preview before. Where lines are smooth it lies within a
+few metres of the full restoration, about one sample.
 """
 
 from collections.abc import Callable

@@ -10,15 +10,13 @@ from shapely import LineString
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
-from seiswidgets.geology.carrying import carried_fault, carried_horizon, carried_point
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.flattening import flattened
 from seiswidgets.geology.picks import Fault, Horizon
-from seiswidgets.geology.picture import picture
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import GAUSS_NEWTON, Options
 from seiswidgets.geology.stage import Stage
-from seiswidgets.geology.strain import area_ratio_at
+from seiswidgets.geology.transfer import area_ratio_at, carried_fault, carried_horizon, carried_point, picture
 from seiswidgets.geology.unfaulting import unfaulted
 from seiswidgets.geology.weights import Weights
 

@@ -87,9 +87,9 @@ def anchored(mesh: Mesh) -> np.ndarray:
     return free
 
 
-def reusable_setup(earlier, task):
-    """What an earlier stage laid out for just this task, None if its task was another or there is none."""
-    return earlier.mesh_setup if earlier is not None and earlier.mesh_setup.task == task else None
+def reusable_setup(earlier, fingerprint):
+    """Mesh set-up cached by an identical earlier stage, or None."""
+    return earlier.mesh_setup if earlier is not None and earlier.mesh_setup.fingerprint == fingerprint else None
 
 
 def warm_start(mesh: Mesh, free, earlier) -> np.ndarray | None:

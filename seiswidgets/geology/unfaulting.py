@@ -16,7 +16,7 @@ from seiswidgets.core.seams import welded
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
-from seiswidgets.geology.cutoffs import CutOffPair, Drawing
+from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import EDGES, fault_lines, with_points
 from seiswidgets.geology.findings import Finding
@@ -43,23 +43,23 @@ class Blocks:
     cut : Cut
     sides : dict of str to array, shape (2, s, 2)
         Both copies of each fault's edges.
-    drawing : Drawing
+    network : PickNetwork
     cutoffs : list of CutOffPair
     stitches : array, shape (c, 2)
         For each of the cut-offs its vertex in the hanging wall and in the footwall.
     beds : dict of str to list of array, shape (k, 2)
         The edges of each part of each horizon.
-    task : tuple
+    fingerprint : tuple
         What they were made for.
     """
 
     cut: Cut
     sides: dict[str, np.ndarray]
-    drawing: Drawing
+    network: PickNetwork
     cutoffs: list[CutOffPair]
     stitches: np.ndarray
     beds: dict[str, list[np.ndarray]]
-    task: tuple
+    fingerprint: tuple
 
     @property
     def mesh(self) -> Mesh:
@@ -89,8 +89,8 @@ def unfaulted(domain: RestorationDomain, faults: dict, horizons: dict, fixed, op
     options : Options
     """
     began = time.perf_counter()
-    task = domain.task({name: [LineString(points)] for name, points in faults.items()}, horizons)
-    blocks = reusable_setup(options.start, task) or _blocks(domain, faults, horizons, task)
+    fingerprint = domain.fingerprint({name: [LineString(points)] for name, points in faults.items()}, horizons)
+    blocks = reusable_setup(options.start, fingerprint) or _blocks(domain, faults, horizons, fingerprint)
     mesh, free = blocks.mesh, _free(blocks.mesh, fixed, domain)
     terms = _terms(blocks, options.weights)
     start = warm_start(mesh, free, options.start)
@@ -104,7 +104,7 @@ def unfaulted(domain: RestorationDomain, faults: dict, horizons: dict, fixed, op
         vertices = nearest_rigid(mesh.vertices, vertices, vertex_masses(mesh))
     whole, vertices = welded(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
     seconds, achieved = time.perf_counter() - began, partial(_achieved, blocks, solution, domain)
-    picks, lines = tuple(blocks.drawing.faults), tuple(blocks.drawing.faults.values())
+    picks, lines = tuple(blocks.network.faults), tuple(blocks.network.faults.values())
     return staged("unfault", picks, domain, whole, vertices, solution, options.solver, seconds, blocks, achieved, lines)
 
 
@@ -119,27 +119,27 @@ def _achieved(blocks, solution, domain):
     return {"seams": seams, "cutoffs": cutoffs, "beds": beds, "findings": (*apart, *gave_way)}
 
 
-def _blocks(domain, faults, horizons, task):
+def _blocks(domain, faults, horizons, fingerprint):
     drawn = fault_lines(faults, domain)
-    drawing = Drawing(
+    network = PickNetwork(
         drawn, {name: horizon_segments(pieces, list(drawn.values())) for name, pieces in horizons.items()}, domain.where
     )
-    cutoffs = drawing.cutoffs()
-    lines = {name: _meshed_line(name, line, drawing, domain) for name, line in drawn.items()}
-    beds = {name: [domain.simplified(part.line) for part in horizon] for name, horizon in drawing.horizons.items()}
+    cutoffs = network.cutoffs()
+    lines = {name: _meshed_line(name, line, network, domain) for name, line in drawn.items()}
+    beds = {name: [domain.simplified(part.line) for part in horizon] for name, horizon in network.horizons.items()}
     whole = domain.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
     edges = {name: _inner_edges(whole, line, name, domain) for name, line in lines.items()}
     cut = whole.cut(np.concatenate(list(edges.values())))
     beds = {name: [cut.along(edges_along(whole, line, domain.spacing)) for line in bed] for name, bed in beds.items()}
     sides = {name: cut.sides(along) for name, along in edges.items()}
-    _check_meshed(cutoffs, beds, drawing, domain)
-    return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds, task)
+    _check_meshed(cutoffs, beds, network, domain)
+    return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, fingerprint)
 
 
-def _meshed_line(name, line, drawing, domain):
+def _meshed_line(name, line, network, domain):
     """A fault with its cut-offs among its points, in edges short enough to slip along."""
-    number = list(drawing.faults).index(name)
-    ends = (end for horizon in drawing.horizons.values() for part in horizon for end in part.ends)
+    number = list(network.faults).index(name)
+    ends = (end for horizon in network.horizons.values() for part in horizon for end in part.ends)
     line = with_points(line, [end.point for end in ends if end and end.fault == number])
     return line.segmentize(min(domain.spacing, line.length / EDGES))
 
@@ -155,10 +155,10 @@ def _inner_edges(mesh, line, name, domain):
     return along[inner]
 
 
-def _check_meshed(cutoffs, beds, drawing, domain):
+def _check_meshed(cutoffs, beds, network, domain):
     for pair in cutoffs:
         for index, place in (pair.hanging_wall, pair.footwall):
-            part = drawing.horizons[pair.horizon][index]
+            part = network.horizons[pair.horizon][index]
             if not len(beds[pair.horizon][index]):
                 raise PickError(
                     f"piece {part.number} of horizon {pair.horizon!r} is only {part.line.length:.2g} m long at fault "
@@ -201,7 +201,7 @@ def _terms(blocks, weights):
         *(
             term
             for name, sides in blocks.sides.items()
-            for term in contacts(mesh, sides, blocks.drawing.faults[name], weights.slide, "contact")
+            for term in contacts(mesh, sides, blocks.network.faults[name], weights.slide, "contact")
         ),
         AreaBarrier(mesh),
     ]
@@ -257,7 +257,7 @@ def _cutoffs(blocks, vertices, domain):
     reports, apart = [], []
     for pair, (hanging_wall, footwall) in zip(blocks.cutoffs, blocks.stitches, strict=True):
         before = domain.section.from_rock(blocks.mesh.vertices[[hanging_wall, footwall]])
-        top, bottom = sorted((blocks.drawing.faults[pair.fault].coords[k] for k in (0, -1)), key=lambda end: end[1])
+        top, bottom = sorted((blocks.network.faults[pair.fault].coords[k] for k in (0, -1)), key=lambda end: end[1])
         misfit = float(np.hypot(*(vertices[hanging_wall] - vertices[footwall])))
         heave = (before[0, 0] - before[1, 0]) * (1 if bottom[0] >= top[0] else -1)
         reports.append(CutOffReport(pair.fault, pair.horizon, float(before[0, 1] - before[1, 1]), float(heave), misfit))

@@ -78,3 +78,13 @@ def rock_points(section: Section, drawn, what: str) -> np.ndarray:
             f"{section.x_unit} and from z={z_min:g} to {z_max:g} {section.z_unit}"
         )
     return section.to_rock(clipped)
+
+
+def checked_kind(value, kind: type, name: str):
+    """SettingError if an argument is not of the class that it must be of."""
+    if not isinstance(value, kind):
+        raise SettingError(f"{name} must be {_a(kind)}, but is {_a(type(value))}")
+
+
+def _a(kind):
+    return f"{'an' if kind.__name__[0] in 'AEIOUaeiou' else 'a'} {kind.__name__}"

@@ -1,7 +1,7 @@
 """What the wheel, a drag, two fingers and keys do to what a pane shows."""
 
+from seiswidgets.interaction.messages import PointerMessage
 from seiswidgets.interaction.viewport import Viewport
-from seiswidgets.widgets.section_view.pointer_layer import PointerMessage
 
 ZOOM = 1.2  # a step of the wheel
 CLOSER = 1.5  # a key

@@ -6,9 +6,9 @@ from os import PathLike
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
+from seiswidgets.io.files import existing_file
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.options import OpenOptions, Progress, tell
-from seiswidgets.io.paths import existing_file
 from seiswidgets.io.rasters.arrays import open_array, open_text, preview_array, preview_text
 from seiswidgets.io.rasters.images import open_picture, preview_picture
 from seiswidgets.io.segy.layout import begins_like_segy

@@ -11,8 +11,8 @@ from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.validation import checked_kind
 from seiswidgets.geology.weights import Weights
-from seiswidgets.io.arguments import checked_kind
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.files.session_bar import SessionBar
 from seiswidgets.widgets.files.tabbed import Tabbed

@@ -10,7 +10,7 @@ from traitlets import Dict, Float, List, Unicode, observe, validate
 
 from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
 from seiswidgets.errors import SettingError
-from seiswidgets.interaction.ratio_colours import RatioColouring
+from seiswidgets.interaction.colour import RatioColouring
 from seiswidgets.widgets.section_view.pointer_layer import LAYER, joined
 
 HERE = Path(__file__).parent

@@ -9,10 +9,9 @@ from traitlets import Bool, Float, Instance, List, observe
 
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.colours import clip_limit
+from seiswidgets.interaction.colour import RatioColouring, clip_limit
 from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.projection import PaneProjection
-from seiswidgets.interaction.ratio_colours import RatioColouring
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.section_view.canvas import LOCK, held
 from seiswidgets.widgets.section_view.pane import SectionPane

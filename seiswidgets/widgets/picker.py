@@ -125,7 +125,7 @@ class Picker(VBox):
         self.list.update(self._wrong())
 
     def refresh(self) -> None:
-        """Show what the editor holds, everywhere: first on the section of today, at last where the restoration matters."""
+        """Show the editor's state everywhere, first on the present-day section."""
         with LOCK:
             cutoffs = self.editor.cutoffs()
             self._draw(self._panes[:1], cutoffs)

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.interaction.messages import PointerMessage
 from seiswidgets.interaction.navigation import KEYS, Navigation
 from seiswidgets.interaction.viewport import Viewport
-from seiswidgets.widgets.section_view.pointer_layer import PointerMessage
 
 VIEW = Viewport(sw.Section(np.zeros((200, 300)), dx=10, dz=5)).zoomed(3)
 

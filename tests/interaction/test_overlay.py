@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 import seiswidgets as sw
-from seiswidgets.interaction.colours import resampled
+from seiswidgets.interaction.colour import resampled
 from seiswidgets.interaction.overlay import Mark, Overlay
 from seiswidgets.widgets.section_view.canvas import encoded
 

@@ -7,9 +7,8 @@ import numpy as np
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.restoration import Restoration
-from seiswidgets.io.arguments import checked_kind
-from seiswidgets.io.optional import required
-from seiswidgets.io.writing import checked_path, written
+from seiswidgets.geology.validation import checked_kind
+from seiswidgets.io.files import checked_path, required, written
 
 SUFFIXES = (".vtu", ".vtk")
 

@@ -7,8 +7,8 @@ from math import isfinite
 from os import PathLike
 
 from seiswidgets.geology.restoration import Restoration
-from seiswidgets.io.arguments import checked_kind
-from seiswidgets.io.writing import checked_path, written
+from seiswidgets.geology.validation import checked_kind
+from seiswidgets.io.files import checked_path, written
 
 SUFFIXES = (".json", ".html")
 STYLE = "body { font-family: sans-serif; max-width: 60em; margin: 2em auto } th { padding-right: 1em }"

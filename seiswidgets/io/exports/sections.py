@@ -10,11 +10,10 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import finite_number
+from seiswidgets.io.files import checked_path, existing_file, written
 from seiswidgets.io.options import OF_SEGY, OpenOptions
-from seiswidgets.io.paths import existing_file
 from seiswidgets.io.rasters.arrays import STORED
 from seiswidgets.io.segy.writing import write_segy
-from seiswidgets.io.writing import checked_path, written
 
 SUFFIXES = (".sgy", ".segy", ".npz")
 

@@ -7,9 +7,9 @@ import numpy as np
 from seiswidgets.errors import SectionError, SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import METRES, SECONDS, Section
-from seiswidgets.io.arguments import checked_kind
+from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io.exports.reports import stages_in_words
-from seiswidgets.io.optional import required
+from seiswidgets.io.files import required
 
 if TYPE_CHECKING:
     import xarray

@@ -5,9 +5,8 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.lines import FileLines
+from seiswidgets.io.picks.lines import FileLines, depth, number
 from seiswidgets.io.picks.map_points import ExportOptions, Node, fault_lines, horizon_lines, rows
-from seiswidgets.io.picks.numbers import depth, number
 
 MARK = re.compile(r"\b(?:INLINE|XLINE)\s*[:-]?")  # before a line's number, with or without blanks around it
 COLUMNS = ("inline", "crossline", "X", "Y")

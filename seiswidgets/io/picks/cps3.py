@@ -6,9 +6,8 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.lines import FileLines
+from seiswidgets.io.picks.lines import FileLines, depth, number
 from seiswidgets.io.picks.map_points import ExportOptions, Node, fault_lines, horizon_lines, rows
-from seiswidgets.io.picks.numbers import depth, number
 
 HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written, nothing that places a pick
 

@@ -5,13 +5,12 @@ import os
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import METRES, Section
-from seiswidgets.io.arguments import checked_kind
+from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io.document import LARGEST_OURS, check_size, shortened
-from seiswidgets.io.paths import user_path
+from seiswidgets.io.files import user_path, write_whole
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
 from seiswidgets.io.picks.lines import FileLines, PickLine, in_section_units, interpretation, without_single_points
 from seiswidgets.io.picks.map_points import Along, ExportOptions
-from seiswidgets.io.writing import write_whole
 
 OURS = {"geojson": geojson, "csv": table}
 EXPORTS = {

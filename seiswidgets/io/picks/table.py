@@ -8,8 +8,7 @@ from pathlib import Path
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.io.document import LARGEST_OURS, lines, read_text
-from seiswidgets.io.picks.lines import FAULT, HORIZON, FileLines, PickLine
-from seiswidgets.io.picks.numbers import number
+from seiswidgets.io.picks.lines import FAULT, HORIZON, FileLines, PickLine, number
 
 COLUMNS = ("kind", "name", "piece", "x", "z")
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seiswidgets.errors import DataError, SettingError
-from seiswidgets.io.optional import required
+from seiswidgets.io.files import required
 from seiswidgets.io.options import OpenOptions, Progress, tell
 from seiswidgets.io.segy.layout import Layout
 

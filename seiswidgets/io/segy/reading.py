@@ -7,8 +7,8 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
+from seiswidgets.io.files import required
 from seiswidgets.io.info import HEIGHT, SectionInfo
-from seiswidgets.io.optional import required
 from seiswidgets.io.options import OpenOptions, Progress, checked_size, section_of, tell
 from seiswidgets.io.segy.layout import layout
 from seiswidgets.io.segy.lines import TraceHeaders, checked_bytes, course, first_line, line, lines_of_volume, spacing

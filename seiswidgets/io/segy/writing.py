@@ -8,11 +8,10 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io.exports.reports import stages_in_words
-from seiswidgets.io.optional import required
+from seiswidgets.io.files import required, written
 from seiswidgets.io.options import OpenOptions
 from seiswidgets.io.segy.lines import BYTES, line
 from seiswidgets.io.segy.reading import trace_headers
-from seiswidgets.io.writing import written
 
 THOUSANDTHS = {"ms": 1000, "s": 1_000_000, "m": 1000, "km": 1_000_000, "ft": 1000}  # of a millisecond, metre or foot
 LIVE, DEAD = 1, 2

@@ -12,9 +12,8 @@ from datetime import datetime
 from pathlib import Path
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.paths import user_path
+from seiswidgets.io.files import user_path, write_whole
 from seiswidgets.io.session.session import Session, open_session
-from seiswidgets.io.writing import write_whole
 
 KEEP = 10
 BEHIND = 0.5  # s: edits that come so close together are saved at once

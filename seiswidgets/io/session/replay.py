@@ -10,9 +10,9 @@ from seiswidgets.errors import DataError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.io.exports.reports import report_as_dict
 from seiswidgets.io.exports.sections import save_section
+from seiswidgets.io.files import write_whole
 from seiswidgets.io.session.session import Session, open_session
 from seiswidgets.io.session.sources import FILE
-from seiswidgets.io.writing import write_whole
 
 
 @dataclass(frozen=True)

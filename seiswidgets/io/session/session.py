@@ -10,13 +10,12 @@ from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.io.arguments import checked_kind
+from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io.document import LARGEST_OURS, check_size
-from seiswidgets.io.paths import user_path
+from seiswidgets.io.files import user_path, write_whole
 from seiswidgets.io.session import file
 from seiswidgets.io.session.saved_picks import SavedPick, saved
 from seiswidgets.io.session.sources import SectionSource, section_sha256
-from seiswidgets.io.writing import write_whole
 
 Point = tuple[float, float]
 

@@ -17,10 +17,10 @@ from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
 from seiswidgets.geology import synthetic
 from seiswidgets.geology.kinematics import Survey
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io import datasets
-from seiswidgets.io.arguments import checked_kind
+from seiswidgets.io.files import user_path
 from seiswidgets.io.opening import open_section
-from seiswidgets.io.paths import user_path
 
 FILE, SYNTHETIC, DATASET = "file", "synthetic", "dataset"
 NAMES = {  # what a session may call, whatever it says

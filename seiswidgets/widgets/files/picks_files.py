@@ -9,7 +9,7 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import METRES, SECONDS
 from seiswidgets.interaction.drawing import Drawing
-from seiswidgets.io.paths import user_path
+from seiswidgets.io.files import user_path
 from seiswidgets.io.picks import read_picks, write_picks
 from seiswidgets.io.picks.files import EXPORTS
 from seiswidgets.widgets.files.background_job import BackgroundJob

@@ -15,9 +15,8 @@ from seiswidgets.io.exports.meshes import save_mesh
 from seiswidgets.io.exports.reports import save_report
 from seiswidgets.io.exports.sections import save_section
 from seiswidgets.io.exports.xarrays import displacement
-from seiswidgets.io.paths import user_path
+from seiswidgets.io.files import user_path, written
 from seiswidgets.io.session.sources import SectionSource
-from seiswidgets.io.writing import written
 from seiswidgets.widgets.files.background_job import BackgroundJob
 from seiswidgets.widgets.files.file_names import file_name
 from seiswidgets.widgets.files.line_map import of_segy

@@ -8,7 +8,7 @@ from ipywidgets import Dropdown, Layout, VBox
 from traitlets import Instance
 
 from seiswidgets.errors import DataError, SettingError
-from seiswidgets.io.paths import user_path
+from seiswidgets.io.files import user_path
 from seiswidgets.io.session.autosave import Autosave, Version, found, numbered, set_aside
 from seiswidgets.io.session.sources import FILE, resolved, section_sha256
 from seiswidgets.widgets.files.labels import counted

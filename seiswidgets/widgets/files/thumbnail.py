@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from seiswidgets.errors import Cancelled, SeiswidgetsError
-from seiswidgets.interaction.colours import Colouring, clip_limit, resampled
+from seiswidgets.interaction.colour import Colouring, clip_limit, resampled
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.opening import open_section
 from seiswidgets.io.options import Progress

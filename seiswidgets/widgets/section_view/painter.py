@@ -4,7 +4,7 @@ from ipycanvas import MultiCanvas
 from ipywidgets import Layout
 
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.colours import Colouring
+from seiswidgets.interaction.colour import Colouring
 from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.section_view.canvas import held, resize

@@ -9,8 +9,9 @@ from traitlets import Any, Enum, Float, Instance, Int, Unicode, dlink, observe, 
 
 from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.colours import Colouring, clip_limit, colour_map
+from seiswidgets.interaction.colour import Colouring, clip_limit, colour_map
 from seiswidgets.interaction.gestures import Gesture
+from seiswidgets.interaction.messages import PointerMessage, axes_state, gesture_of
 from seiswidgets.interaction.navigation import KEYS, Navigation
 from seiswidgets.interaction.overlay import Mark, Overlay, Stroke, map_state, mesh_state
 from seiswidgets.interaction.viewport import Viewport, checked_window
@@ -18,7 +19,7 @@ from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.section_view.canvas import LOCK, held
 from seiswidgets.widgets.section_view.painter import Painter
-from seiswidgets.widgets.section_view.pointer_layer import PointerLayer, PointerMessage, axes_state, gesture_of
+from seiswidgets.widgets.section_view.pointer_layer import PointerLayer
 
 LEFT, TOP, RIGHT, BOTTOM = 64, 10, 16, 42  # css pixels about the plot area, for the axes
 QUIET = ("hover", "leave", "rest", "size")  # what happens without anybody doing anything, and leaves the message alone

@@ -7,7 +7,7 @@ from io import BytesIO
 import numpy as np
 from PIL import Image, ImageDraw
 
-from seiswidgets.interaction.colours import resampled
+from seiswidgets.interaction.colour import resampled
 from seiswidgets.widgets.section_view.pane import SectionPane
 
 SIZE = 460, 320  # pixels of a section

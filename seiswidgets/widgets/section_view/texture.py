@@ -4,7 +4,7 @@ import numpy as np
 from ipycanvas import Canvas
 
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.colours import resampled
+from seiswidgets.interaction.colour import resampled
 from seiswidgets.interaction.viewport import Viewport, Window
 from seiswidgets.widgets.section_view.canvas import encoded, put, resize
 

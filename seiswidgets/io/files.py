@@ -1,13 +1,53 @@
-"""Files out, whole or not at all."""
+"""Paths as users give them, files written whole or not at all, and packages that only some files need."""
 
 import contextlib
 import os
 from contextlib import contextmanager
+from importlib import import_module
+from os import PathLike
 from pathlib import Path
+from reprlib import repr as brief
 from tempfile import mkdtemp
 
 from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
-from seiswidgets.io.paths import user_path
+
+
+def user_path(path: str | PathLike) -> Path:
+    """A path, with the home folder in the place of ~.
+
+    Raises
+    ------
+    DataError
+        If it is none, or there is no such home.
+    """
+    if not isinstance(path, str | PathLike) or path == "":
+        raise DataError(f"a path must be a text or a Path that names a file, but is {brief(path)}")
+    try:
+        return Path(path).expanduser()
+    except RuntimeError as error:
+        raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {error} Correct it") from error
+
+
+def existing_file(path: str | PathLike) -> Path:
+    """The path of a file that is there.
+
+    Raises
+    ------
+    DataError
+        If there is none.
+    """
+    path = user_path(path)
+    try:
+        if not path.exists():
+            raise DataError(f"{path} is not there; check its name and folder")
+        if not path.is_file():
+            raise DataError(f"{path} is {'a folder' if path.is_dir() else 'no file'}; give the path of a file")
+    except (OSError, ValueError) as error:  # of names that cannot be a file's
+        if isinstance(error, DataError):
+            raise
+        reason = getattr(error, "strerror", None) or error
+        raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {reason}; correct it") from error
+    return path
 
 
 def checked_path(path, suffixes: tuple[str, ...]) -> Path:
@@ -73,3 +113,20 @@ def _settle(path):
         os.fsync(handle)
     finally:
         os.close(handle)
+
+
+def required(package: str, purpose: str):
+    """A package of the extra ``files``, imported; ``purpose`` says for what it is needed, as "to read line.sgy".
+
+    Raises
+    ------
+    DataError
+        If it is not installed; the message says how to install it.
+    """
+    try:
+        return import_module(package)
+    except ModuleNotFoundError as error:
+        raise DataError(
+            f"{purpose} takes the package {package}, which is not installed: pip install {package}, "
+            'or "seiswidgets[files]" for all that files may need'
+        ) from error
