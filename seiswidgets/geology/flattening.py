@@ -57,8 +57,8 @@ def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None,
     """
     began = time.perf_counter()
     fingerprint = domain.fingerprint({name: pieces})
-    laid = reusable_setup(options.start, fingerprint) or _bed(domain, name, pieces, fingerprint)
-    mesh, bed = laid.mesh, laid.edges
+    setup = reusable_setup(options.start, fingerprint) or _bed(domain, name, pieces, fingerprint)
+    mesh, bed = setup.mesh, setup.edges
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
     level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
     free = np.ones(len(mesh.vertices), bool)
@@ -70,15 +70,15 @@ def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None,
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=vertex_masses(mesh))
     vertices[:, 0] -= drift  # how far the whole moves sideways costs nothing: let it move least
     seconds = time.perf_counter() - began
-    achieved = partial(_achieved, name, laid, level, vertices, domain)
-    return staged("flatten", (name,), domain, mesh, vertices, solution, options.solver, seconds, laid, achieved)
+    achieved = partial(_achieved, name, setup, level, vertices, domain)
+    return staged("flatten", (name,), domain, mesh, vertices, solution, options.solver, seconds, setup, achieved)
 
 
-def _achieved(name, laid, level, vertices, domain):
+def _achieved(name, setup, level, vertices, domain):
     """What is reported of the horizon."""
     off = vertices[level.vertices, 1] - level.datum
     flatness = float(np.sqrt(np.mean(off**2)) / domain.section.metres[1])
-    report = BedReport(name, length_change([laid.edges], laid.mesh.vertices, vertices), flatness)
+    report = BedReport(name, length_change([setup.edges], setup.mesh.vertices, vertices), flatness)
     findings = () if np.abs(off).max() <= domain.slack else (_still_uneven(name, off),)
     return {"beds": (report,), "findings": findings}
 

@@ -41,7 +41,7 @@ class Stage:
         What the step started from.
     found : callable() -> Report
         Makes out what the solver reached; ``report`` adds what asks for the outline.
-    laid : Blocks or Bed
+    mesh_setup : Blocks or Bed
         The mesh before it was welded, and where the picks lie in it: a later stage of the same task takes it over.
     whole : Stage, optional
         The step that this is only a part of.
@@ -53,7 +53,7 @@ class Stage:
     faults: tuple[LineString, ...]
     domain: RestorationDomain
     found: Callable[[], Report]
-    laid: object
+    mesh_setup: object
     whole: "Stage | None" = None
 
     def __post_init__(self):
@@ -139,7 +139,7 @@ class Stage:
         return LineString(moved) if len(moved) > 1 else None
 
 
-def staged(kind, picks, domain, mesh, vertices, solution, solver, seconds, laid, achieved, faults=()) -> Stage:
+def staged(kind, picks, domain, mesh, vertices, solution, solver, seconds, mesh_setup, achieved, faults=()) -> Stage:
     """The stage that a solution makes.
 
     Parameters
@@ -148,7 +148,7 @@ def staged(kind, picks, domain, mesh, vertices, solution, solver, seconds, laid,
         What the report says of cut-offs, seams and beds, and which constraints gave way.
     """
     found = partial(_found, kind, picks, domain, mesh, vertices, solution, solver, seconds, achieved)
-    return Stage(kind, mesh, vertices, faults, domain, found, laid)
+    return Stage(kind, mesh, vertices, faults, domain, found, mesh_setup)
 
 
 def _found(kind, picks, domain, mesh, vertices, solution, solver, seconds, achieved):

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seiswidgets.core import cholesky, normal
+from seiswidgets.core import cholesky, normal_equations
 from seiswidgets.core.contact import contacts
 from seiswidgets.core.normal_equations import NormalEquations
 from seiswidgets.core.solver import residuals, update_contacts
@@ -72,7 +72,7 @@ def second_derivatives(term, vertices, change=1e-4):
 @pytest.mark.parametrize("damping", [1e-3, 1.0])
 def test_step_is_newtons(backend, name, free, damping, monkeypatch):
     if backend == "SuperLU":
-        monkeypatch.setattr(normal, "Cholesky", cholesky.SuperLU)
+        monkeypatch.setattr(normal_equations, "Cholesky", cholesky.SuperLU)
     vertices = perturbed(2.0)
     terms = update_contacts(TERMS[name], vertices)
     equations = NormalEquations(terms, both(free), vertices)
