@@ -14,7 +14,7 @@ import xarray
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.widgets.app import RestorationApp
-from seiswidgets.widgets.files import picksfiles, resultfiles, sectionopener
+from seiswidgets.widgets.files import picks_files, result_files, section_opener
 from seiswidgets.widgets.files.file_field import FileField
 from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.widgets.files import line, message, send, volume
@@ -216,14 +216,14 @@ def test_what_cannot_be_opened_is_said_and_changes_nothing(app, case, tmp_path, 
 
 
 def test_opening_can_be_cancelled(app, case, tmp_path, monkeypatch):
-    begun, go_on, opened = threading.Event(), threading.Event(), sectionopener.open_section
+    begun, go_on, opened = threading.Event(), threading.Event(), section_opener.open_section
 
     def slow(path, *, progress, **choices):
         begun.set()
         go_on.wait(LONG)
         return opened(path, progress=progress, **choices)
 
-    monkeypatch.setattr(sectionopener, "open_section", slow)
+    monkeypatch.setattr(section_opener, "open_section", slow)
     opener = look(app, line(tmp_path / "line.sgy"))
     opener.load()
     assert begun.wait(LONG)
@@ -240,14 +240,14 @@ def test_opening_can_be_cancelled(app, case, tmp_path, monkeypatch):
 
 
 def test_another_path_takes_the_place_of_what_is_being_opened(app, case, tmp_path, monkeypatch):
-    begun, go_on, opened = threading.Event(), threading.Event(), sectionopener.open_section
+    begun, go_on, opened = threading.Event(), threading.Event(), section_opener.open_section
 
     def slow(path, *, progress, **choices):
         begun.set()
         go_on.wait(LONG)
         return opened(path, **choices)
 
-    monkeypatch.setattr(sectionopener, "open_section", slow)
+    monkeypatch.setattr(section_opener, "open_section", slow)
     opener = look(app, line(tmp_path / "line.sgy"))
     opener.load()
     assert begun.wait(LONG)
@@ -260,7 +260,7 @@ def test_another_path_takes_the_place_of_what_is_being_opened(app, case, tmp_pat
 
 
 def test_what_should_not_happen_is_said_too(app, tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(sectionopener, "open_section", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr(section_opener, "open_section", lambda *_, **__: 1 / 0)
     opener = load(app, line(tmp_path / "line.sgy"))
     assert "should not have happened: ZeroDivisionError" in opener.notice.text
     assert "in the background failed" in caplog.text
@@ -498,7 +498,7 @@ def test_an_import_can_be_cancelled(app, tmp_path, monkeypatch):
         go_on.wait(LONG)
         return sw.Interpretation([sw.Fault([(0.0, 0.0), (100.0, 100.0)])])
 
-    monkeypatch.setattr(picksfiles, "read_picks", slow)
+    monkeypatch.setattr(picks_files, "read_picks", slow)
     picks = app.files.picks
     picks.file.text.value = "picks.csv"
     picks.read()
@@ -566,14 +566,14 @@ def export_reports(app, folder):
 
 def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path, monkeypatch):
     begun, go_on = threading.Event(), threading.Event()
-    kind, write = resultfiles.WRITERS["report.json"]
+    kind, write = result_files.WRITERS["report.json"]
 
     def slow(result, path):
         begun.set()
         go_on.wait(LONG)
         write(result, path)
 
-    monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, slow))
+    monkeypatch.setitem(result_files.WRITERS, "report.json", (kind, slow))
     results = export_reports(restored, tmp_path)
     assert begun.wait(LONG)
     assert results.notice.text == "Writing faulted fold-report.json ..."
@@ -589,12 +589,12 @@ def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path
 
 
 def test_one_file_that_cannot_be_written_keeps_no_other_from_it(restored, tmp_path, monkeypatch):
-    kind, _ = resultfiles.WRITERS["report.json"]
+    kind, _ = result_files.WRITERS["report.json"]
 
     def fail(result, path):
         raise DataError(f"{path} cannot be written: give x_unit=")
 
-    monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, fail))
+    monkeypatch.setitem(result_files.WRITERS, "report.json", (kind, fail))
     results = export_reports(restored, tmp_path)
     assert results.wait(LONG)
     assert "report.json cannot be written: give “unit of x”. Wrote into" in results.notice.text

@@ -7,7 +7,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
-from seiswidgets.io import writing
+from seiswidgets.io import files
 from seiswidgets.io.session.autosave import found, numbered
 from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.files import session_bar
@@ -60,7 +60,7 @@ def full_disk(monkeypatch):
             raise OSError(28, "No space left on device")
         replace(one, other)
 
-    monkeypatch.setattr(writing.os, "replace", replaced)
+    monkeypatch.setattr(files.os, "replace", replaced)
     return full
 
 
