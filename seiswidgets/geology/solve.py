@@ -66,7 +66,7 @@ def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where, adr
         raise FlippedError(
             f"the {options.solver} solver has turned {len(flipped)} of {len(mesh.triangles)} triangles over, the first "
             f"near {where(place)}; use solver={GAUSS_NEWTON!r}, or ask for less",
-            len(flipped),
+            count=len(flipped),
         )
     return solution
 
