@@ -38,6 +38,17 @@ def as_points(rows) -> np.ndarray:
     return array.reshape(-1, 2)
 
 
+def held_point(value) -> tuple[float, float]:
+    """Validate a point (x, z) whose block is held."""
+    try:
+        point = np.asarray(value, float)
+    except (TypeError, ValueError):
+        point = np.full(2, np.nan)
+    if point.shape != (2,) or not np.isfinite(point).all():
+        raise PickError(f"fixed must be a point (x, z) of two finite numbers, but is {value!r}")
+    return float(point[0]), float(point[1])
+
+
 def named_picks(given, kind: type, word: str) -> dict:
     """Faults or horizons by name, from one or several; a name that comes again gets a number behind it."""
     given = [given] if isinstance(given, Fault | Horizon) else given
