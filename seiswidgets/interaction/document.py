@@ -46,12 +46,19 @@ class EditHistory:
     ----------
     document : Document
     changed : callable(), optional
-        Called after each change of the document.
+        Called after each change of the document or of what can be undone.
+    check : callable(Document), optional
+        Called with the new document before each edit, undo and redo; it may raise to prevent it.
     """
 
-    def __init__(self, document: Document, changed: Callable[[], None] = lambda: None):
+    def __init__(
+        self,
+        document: Document,
+        changed: Callable[[], None] = lambda: None,
+        check: Callable[[Document], None] = lambda document: None,
+    ):
         self._document = self._committed = document
-        self._changed = changed
+        self._changed, self._check = changed, check
         self._past: list[Entry] = []
         self._future: list[Entry] = []
 
@@ -59,6 +66,11 @@ class EditHistory:
     def document(self) -> Document:
         """The current document, changes that are not committed yet included."""
         return self._document
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether all changes are committed: no drag is in progress."""
+        return self._document == self._committed
 
     @property
     def undo_count(self) -> int:
@@ -71,14 +83,14 @@ class EditHistory:
         return len(self._future)
 
     @property
-    def undo_label(self) -> str | None:
-        """Description of the edit that ``undo`` would undo; None if there is none."""
-        return self._past[-1].label if self._past else None
+    def next_undo(self) -> Entry | None:
+        """The edit that ``undo`` would undo, with the document before it; None if there is none."""
+        return self._past[-1] if self._past else None
 
     @property
-    def redo_label(self) -> str | None:
-        """Description of the edit that ``redo`` would make again; None if there is none."""
-        return self._future[-1].label if self._future else None
+    def next_redo(self) -> Entry | None:
+        """The edit that ``redo`` would make again, with the document after it; None if there is none."""
+        return self._future[-1] if self._future else None
 
     def amend(self, **changes) -> None:
         """Change fields of the document without recording an edit yet."""
@@ -94,6 +106,7 @@ class EditHistory:
     def edit(self, label: str, selection: PickSelection | None = None, **changes) -> None:
         """Change fields of the document and record the edit; no change is no edit."""
         document = replace(self._document, **changes)
+        self._check(document)
         if document != self._committed:
             self._past.append(Entry(label, self._committed, selection))
             self._future.clear()
@@ -117,6 +130,7 @@ class EditHistory:
     def _travel(self, source, target, selection):
         if not source:
             return None
+        self._check(source[-1].document)
         entry = source.pop()
         target.append(Entry(entry.label, self._committed, selection))
         self._take(entry.document, entry.document)

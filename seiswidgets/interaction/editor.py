@@ -169,14 +169,15 @@ class PickEditor:
 
     def load(self, interpretation: Interpretation) -> None:
         """Replace the finished picks by those of an interpretation; the one shown already changes nothing."""
-        self.settle()
         if interpretation is not self.interpretation:
+            self.settle()
             self._draw("new picks", self.drawing.with_interpretation(interpretation))
 
     def hold(self, point: Point | None) -> None:
         """Hold the block that a point lies in, or none."""
-        self.settle()
-        self._become(self.state.hold(None if point is None else self._tools.inside(point)), "held point")
+        if point != self.state.fixed:
+            self.settle()
+            self._become(self.state.hold(None if point is None else self._tools.inside(point)), "held point")
 
     def reset(self) -> None:
         """Drop the selection, the cursor and the drag, as for another document."""

@@ -13,8 +13,8 @@ from seiswidgets.geology.section import Section
 from seiswidgets.geology.synthetic import Synthetic
 from seiswidgets.io import datasets
 from seiswidgets.widgets.app import RestorationApp
+from seiswidgets.widgets.binding import bind_control
 from seiswidgets.widgets.messages import HINT, TROUBLE
-from seiswidgets.widgets.ties import tie
 
 WAIT = "Looking for this section; the first time it may have to be fetched."
 
@@ -78,8 +78,8 @@ class Gallery(VBox):
         self._text = HTML(layout=Layout(min_width="0"))
         self._head = HBox([chooser, self._picked, self._text], layout=Layout(flex_flow="wrap", grid_gap="0 16px"))
         super().__init__([self._head], **settings)
-        tie(self, "choice", chooser)
-        tie(self, "with_picks", self._picked)
+        bind_control(self, "choice", chooser)
+        bind_control(self, "with_picks", self._picked)
         self._open()
         self.observe(self._open, ("choice", "with_picks"))
 

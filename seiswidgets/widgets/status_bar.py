@@ -6,8 +6,8 @@ from html import escape
 from ipywidgets import HTML, Box, Button, FloatProgress, HBox, Label, Layout, ToggleButton
 from traitlets import Bool, Unicode
 
+from seiswidgets.widgets.binding import bind_control
 from seiswidgets.widgets.messages import HINT, TROUBLE
-from seiswidgets.widgets.ties import tie
 
 HALF = 4.0  # iterations after which the bar of a step has come half its way
 
@@ -45,7 +45,7 @@ class StatusBar(Box):
         self._cancel.on_click(lambda _: cancel())
         self.buttons = HBox([button, live])
         super().__init__([self._line, self._progress], layout=Layout(align_items="center", min_height="36px"))
-        tie(self, "live", live)
+        bind_control(self, "live", live)
 
     def tell(self, progress) -> None:
         """Show how far a restoration is; None when none is under way."""

@@ -242,7 +242,7 @@ def test_what_should_not_happen_is_said_too(app, monkeypatch, caplog):
     app.restore()
     assert app.wait(LONG)
     assert "should not have happened: ZeroDivisionError" in app.status.text
-    assert "in the background failed" in caplog.text
+    assert "a background job failed" in caplog.text
 
 
 def test_the_timeline_shows_every_moment(app, case):

@@ -2,7 +2,7 @@
 
 import os
 import re
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from reprlib import repr as brief
 
@@ -15,6 +15,11 @@ from seiswidgets.io.session.saved_picks import SavedPick
 from seiswidgets.io.session.sources import FILE, SectionSource, relative, resolved
 
 FORMAT, VERSION = "seiswidgets session", 1
+ELSEWHERE = (
+    "fixed",
+    "pins",
+    "regional",
+)  # of a plan: the held point stands with the picks, the others are not used yet
 DEEPEST = 4  # lists within lists in the choices of a source
 
 
@@ -55,7 +60,7 @@ def text(session, path: Path) -> str:
                 "horizons": [{"name": pick.name, "pieces": pick.pieces, **_looks(pick)} for pick in session.horizons],
                 "fixed": session.fixed,
             },
-            "plan": asdict(session.plan),
+            "plan": {name: value for name, value in asdict(session.plan).items() if name not in ELSEWHERE},
         }
     )
 
@@ -84,8 +89,7 @@ def read(path: Path, allow_outside: bool) -> dict:
         "sha256": section.optional("sha256", _sha256),
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
-        "fixed": picks.optional("fixed", Entry.point),
-        "plan": document.optional("plan", _plan, Plan()),
+        "plan": replace(document.optional("plan", _plan, Plan()), fixed=picks.optional("fixed", Entry.point)),
         "written_by": document.optional("written_by", Entry.text, ""),
     }
 
