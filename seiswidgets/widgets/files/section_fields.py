@@ -142,7 +142,7 @@ class SectionFields(VBox):
 
     def _said(self):
         """What is not in the file, as HTML: why not, and which fields hold no more than a usual value."""
-        reasons = "".join(REASON.format(escape(in_labels(reason))) for reason in self._info.reasons)
+        reasons = "".join(REASON.format(escape(in_labels(said))) for said in (*self._info.reasons, *self._info.notes))
         assumed = []
         if "z_unit" in self.fields:
             assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
