@@ -125,15 +125,17 @@ class RestorationApp(Tabbed, Turning, VBox):
         return Plan(self.steps, self.weights, self.solving.solver, self.solving.spacing)
 
     def restore(self) -> None:
-        """Restore on the full mesh now, in the background; what is wrong is said below the panes."""
+        """Restore on the full mesh now, in the background; the verdict, or what is wrong, is said above the panes."""
         self._pressed = True
         if self._is_possible():
+            self.status.show_busy()
             self._restorer.restore(self._task())
 
     def cancel(self) -> None:
         """Give up the restoration that is under way; all that was there before stays."""
         self._restorer.cancel()
         self._set_outdated(True)
+        self.status.hint(CHANGED)
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all that is under way is done, as a script may want; False if that took too long."""
@@ -192,6 +194,7 @@ class RestorationApp(Tabbed, Turning, VBox):
 
     def _take_rest(self, change):
         if self._ready and not change.new and self.live and self._is_possible():
+            self.status.show_busy()
             self._restorer.restore(self._task())
 
     def _restore_soon(self):
@@ -202,8 +205,10 @@ class RestorationApp(Tabbed, Turning, VBox):
         if not self.live:
             self._restorer.cancel()
             self._set_outdated(True)
+            self.picker.show_findings(())
             self.status.hint(CHANGED)
             return
+        self.status.show_busy()
         if self.restoration.stages:
             self._restorer.glance(self._task())
         self._restorer.restore(self._task(), REST if self.restoration.stages else 0.0)
@@ -227,11 +232,19 @@ class RestorationApp(Tabbed, Turning, VBox):
             self.panes.show(frame)
         else:
             self._show_whole(frame, restoration)
-        self.picker.complain("")
+        self.picker.show_findings(frame.verdict.findings if frame.verdict else ())
         self.picker.redraw()
-        self.status.hint("")
+        self._say_verdict(frame.verdict, restoration)
         self._set_outdated(False)
         self.histogram.show(frame.ratio_before.ratio.ravel() if frame.restoration.stages else [])
+
+    def _say_verdict(self, verdict, restoration):
+        if verdict is not None:
+            self.status.judge(verdict)
+        elif restoration is None:
+            self.status.show_busy()  # a quick look: the full restoration follows
+        else:
+            self.status.hint("")
 
     def _show_whole(self, frame, restoration):
         self.panes.show(frame)
@@ -258,7 +271,7 @@ class RestorationApp(Tabbed, Turning, VBox):
         """Say what is wrong: loudly, if it was asked for; as a hint, while picks are still being made."""
         text = in_words(error)
         (self.status.alert if self._pressed else self.status.hint)(text)
-        self.picker.complain(text)
+        self.picker.complain(text, "problem" if self._pressed else "note")
         self._set_outdated(True)
 
     def _set_outdated(self, outdated):

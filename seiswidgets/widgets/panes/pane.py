@@ -11,6 +11,7 @@ from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.order import keep_order
+from seiswidgets.widgets.panes.badge import PaneBadge
 from seiswidgets.widgets.panes.canvas import LOCK, held
 from seiswidgets.widgets.panes.colours import Colouring, clip_limit, colour_map
 from seiswidgets.widgets.panes.gestures import Gesture
@@ -62,6 +63,8 @@ class SectionPane(VBox):
     rubber : sequence of (x, z)
         A dashed line that goes on to the pointer; may be set.
     layer : PointerLayer
+    badge : PaneBadge
+        Frame and label that mark the picture, as one of a result that needs a look.
     message : str
         What is said below the pane, of an error mostly.
 
@@ -92,7 +95,8 @@ class SectionPane(VBox):
         self._picture = Picture(_placed())
         self._picture.canvas.add_class("seiswidgets-plot")
         self.layer = PointerLayer(hotkeys=list(KEYS), layout=_placed())
-        self._grid = GridBox([self._picture.canvas, self.layer], layout=_grid_layout(480))
+        self.badge = PaneBadge(_placed())
+        self._grid = GridBox([self._picture.canvas, self.layer, self.badge], layout=_grid_layout(480))
         self._line = HTML(layout=Layout(display="none"))
         super().__init__([self._grid, self._line], section=section, view=View(section), **settings)
         self._grid.layout.height = f"{self.height}px"

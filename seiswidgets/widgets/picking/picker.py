@@ -1,6 +1,6 @@
 """Draw faults and horizons on a section: a pane, its tools, and the list of what is picked."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +8,7 @@ from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, To
 from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
 
 from seiswidgets.errors import SettingError
+from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
 from seiswidgets.widgets.order import keep_order
@@ -117,11 +118,19 @@ class Picker(VBox):
         self.pen.edit(drawing)
         self.refresh()
 
-    def complain(self, text: str) -> None:
+    def complain(self, text: str, severity: str = "problem") -> None:
         """Say beside a pick what is wrong: the first that the text names is the one that it is about."""
         places = {pick.name: text.find(repr(pick.name)) for pick in self.drawing.picks}
         named = sorted((place, name) for name, place in places.items() if place >= 0)
-        self._complaints = {name: text for _, name in named[:1]}
+        self._complain_about({name: (severity, text) for _, name in named[:1]})
+
+    def show_findings(self, findings: Iterable[Finding]) -> None:
+        """Show beside each pick the worst finding about it, instead of earlier ones and complaints."""
+        about = [finding for finding in worst_first(findings) if finding.pick is not None]
+        self._complain_about({finding.pick: (finding.severity, finding.text) for finding in reversed(about)})
+
+    def _complain_about(self, complaints):
+        self._complaints = complaints
         self.list.update(self._wrong())
 
     def refresh(self) -> None:
@@ -161,7 +170,7 @@ class Picker(VBox):
             self._quiet = False
 
     def _wrong(self):
-        return {**self._complaints, **dict(self.pen.problems)}
+        return {**self._complaints, **{name: ("problem", text) for name, text in dict(self.pen.problems).items()}}
 
     def _handle(self, gesture: Gesture, sight):
         """Let the pen do what a gesture asks; during a drag, as the pane was when it began."""

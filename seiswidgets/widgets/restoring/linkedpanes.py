@@ -141,10 +141,18 @@ class LinkedPanes(VBox):
         if self.original.section is not frame.restoration.original:
             self.original.show(frame.restoration.original)
         self.restored.show(frame.section, moving=frame.moving)
+        self._mark_restored(frame.verdict)
         if old is None or old.restoration is not frame.restoration:
             self.original.carry(frame.restoration.maps_to_restored)
             self.restored.carry(frame.restoration.maps_to_original)
         self._draw_mesh()
+
+    def _mark_restored(self, verdict):
+        """Mark the restored picture where the result has a problem or a warning."""
+        if verdict is None or verdict.is_good:
+            self.restored.badge.hide()
+        else:
+            self.restored.badge.show(verdict.severity, verdict.title)
 
     @observe("restoration")
     def _take_restoration(self, change):
