@@ -46,7 +46,9 @@ LOOKS = {
     "note": Look(COLOURS["note"], f"{ROUND}M8 7.5v3.5M8 4.9v.1"),
     "warning": Look(COLOURS["warning"], "M8 1.8L15 14H1ZM8 6.2v3.6M8 11.9v.1"),
     "problem": Look(
-        COLOURS["problem"], "M5.2 1.5h5.6l3.7 3.7v5.6l-3.7 3.7H5.2L1.5 10.8V5.2ZM8 4.3v4.4M8 11.4v.1", "alert"
+        COLOURS["problem"],
+        "M5.2 1.5h5.6l3.7 3.7v5.6l-3.7 3.7H5.2L1.5 10.8V5.2ZM5.7 5.7l4.6 4.6M10.3 5.7l-4.6 4.6",
+        "alert",
     ),
 }
 

@@ -12,7 +12,7 @@ TITLES = {
     "cut-off": "cut-offs apart",
     "contact": "fault sides apart",
     "overlap": "rock on rock",
-    "fault end": "check the fault's end",
+    "fault end": "fault end",
     "bed length": "bed length changed",
     "datum": "off its datum",
 }
@@ -26,7 +26,7 @@ class Verdict:
     ----------
     severity : {"good", "warning", "problem"}
     title : str
-        Two or three words, such as "not settled".
+        A few words, such as "not settled".
     text : str
         One sentence: that of the worst finding, if there is a warning or a problem.
     rest : str
@@ -49,8 +49,9 @@ class Verdict:
         if not grave:
             return cls(GOOD, "Settled", _achievements(restoration), _notes(len(findings)), findings)
         worst = grave[0]
+        title = f"check: {title_of(worst)}" if worst.severity == "warning" else title_of(worst)
         rest = f"and {len(grave) - 1} more (see Report)" if grave[1:] else ""
-        return cls(worst.severity, title_of(worst), worst.text, rest, findings)
+        return cls(worst.severity, title, worst.text, rest, findings)
 
     @property
     def is_good(self) -> bool:
@@ -80,8 +81,8 @@ def title_of(finding: Finding) -> str:
 
 def _unsettled(report):
     text = (
-        f"{report.kind} {', '.join(report.picks)} did not settle in {report.iterations} iterations, so the result may "
-        "be far from its final place; simplify the picks, change the weights, or use a coarser mesh"
+        f"{report.kind} {', '.join(report.picks)} did not settle in {report.iterations} iterations; simplify the "
+        "picks, change the weights, or use a coarser mesh"
     )
     return Finding("problem", UNSETTLED, text)
 
