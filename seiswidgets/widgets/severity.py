@@ -16,8 +16,8 @@ ICON = (
     'stroke="currentColor" stroke-width="1.8" stroke-linecap="round" stroke-linejoin="round"><path d="{path}"/></svg>'
 )
 REMARK = (
-    '<div role="note" style="display: flex; gap: 6px; margin: 2px 0; line-height: 1.4; white-space: normal; '
-    'color: var(--jp-ui-font-color1, #212121)">{label}<span>{text}</span></div>'
+    '<div role="note" style="display: flex; align-items: flex-start; gap: 6px; margin: 4px 0; line-height: 1.4; '
+    'white-space: normal; color: var(--jp-ui-font-color1, #212121)">{label}<span>{text}</span></div>'
 )
 
 
@@ -40,14 +40,15 @@ class Look:
     role: str = "status"
 
 
-ROUND = "M8 1.5a6.5 6.5 0 1 0 .01 0Z"
+ROUND, TRIANGLE = "M8 1.5a6.5 6.5 0 1 0 .01 0Z", "M8 1.8L15 14H1Z"
+OCTAGON = "M5.2 1.5h5.6l3.7 3.7v5.6l-3.7 3.7H5.2L1.5 10.8V5.2Z"
 LOOKS = {
     GOOD: Look(("#2e7d32", "white"), f"{ROUND}M5 8.2l2.2 2.2L11 6"),
     "note": Look(COLOURS["note"], f"{ROUND}M8 7.5v3.5M8 4.9v.1"),
-    "warning": Look(COLOURS["warning"], "M8 1.8L15 14H1ZM8 6.2v3.6M8 11.9v.1"),
+    "warning": Look(COLOURS["warning"], f"{TRIANGLE}M8 6.2v3.6M8 11.9v.1"),
     "problem": Look(
         COLOURS["problem"],
-        "M5.2 1.5h5.6l3.7 3.7v5.6l-3.7 3.7H5.2L1.5 10.8V5.2ZM5.7 5.7l4.6 4.6M10.3 5.7l-4.6 4.6",
+        f"{OCTAGON}M5.7 5.7l4.6 4.6M10.3 5.7l-4.6 4.6",
         "alert",
     ),
 }

@@ -34,7 +34,7 @@ def test_a_verdict_is_seen_where_one_looks_and_moves_nothing(notebook, dark):
     opened.ask("app.set_trait('interpretation', bad)")
     page.get_by_role("alert").get_by_text("(see Report)").wait_for()
     badge.wait_for()
-    assert page.locator(".seiswidgets-pane-badge span:visible").count() == 1
+    assert page.locator(".seiswidgets-pane-badge svg:visible").count() == 1
     assert badge.evaluate(UNDER)  # the mouse reaches the section through it
     frame, plot = badge.locator("..").bounding_box(), page.locator(".seiswidgets-layer .plot").nth(1).bounding_box()
     np.testing.assert_allclose(list(frame.values()), list(plot.values()), atol=1)
