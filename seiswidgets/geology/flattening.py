@@ -12,11 +12,11 @@ from seiswidgets.core.mesh import Mesh, edge_keys
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
-from seiswidgets.geology.faultlines import merged
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_lines import merged
 from seiswidgets.geology.findings import Finding
-from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.report import BedReport
-from seiswidgets.geology.solving import Options, laid_before, solved, vertex_masses, warm_start
+from seiswidgets.geology.solve import Options, reusable_setup, solved, vertex_masses, warm_start
 from seiswidgets.geology.stage import Stage, staged
 from seiswidgets.geology.unfaulting import length_change
 
@@ -32,21 +32,21 @@ class Bed:
     mesh : Mesh
     edges : array, shape (k, 2)
         Those of the horizon.
-    task : tuple
+    fingerprint : tuple
         What it was made for.
     """
 
     mesh: Mesh
     edges: np.ndarray
-    task: tuple
+    fingerprint: tuple
 
 
-def flattened(ground: Ground, name: str, pieces, datum: float | None, options: Options) -> Stage:
+def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None, options: Options) -> Stage:
     """The stage that makes a horizon level.
 
     Parameters
     ----------
-    ground : Ground
+    domain : RestorationDomain
     name : str
         The horizon's.
     pieces : list of LineString
@@ -56,37 +56,37 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     options : Options
     """
     began = time.perf_counter()
-    task = ground.task({name: pieces})
-    laid = laid_before(options.start, task) or _bed(ground, name, pieces, task)
-    mesh, bed = laid.mesh, laid.edges
+    fingerprint = domain.fingerprint({name: pieces})
+    setup = reusable_setup(options.start, fingerprint) or _bed(domain, name, pieces, fingerprint)
+    mesh, bed = setup.mesh, setup.edges
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
     level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
     free = np.ones(len(mesh.vertices), bool)
     terms = _terms(mesh, bed, level, options.weights)
     start = warm_start(mesh, free, options.start)
     start = mesh.vertices if start is None else start
-    solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where)
+    solution = solved(mesh, terms, start, free, domain.spacing, options, domain.where)
     vertices = solution.vertices.copy()
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=vertex_masses(mesh))
     vertices[:, 0] -= drift  # how far the whole moves sideways costs nothing: let it move least
     seconds = time.perf_counter() - began
-    achieved = partial(_achieved, name, laid, level, vertices, ground)
-    return staged("flatten", (name,), ground, mesh, vertices, solution, options.solver, seconds, laid, achieved)
+    achieved = partial(_achieved, name, setup, level, vertices, domain)
+    return staged("flatten", (name,), domain, mesh, vertices, solution, options.solver, seconds, setup, achieved)
 
 
-def _achieved(name, laid, level, vertices, ground):
+def _achieved(name, setup, level, vertices, domain):
     """What is reported of the horizon."""
     off = vertices[level.vertices, 1] - level.datum
-    flatness = float(np.sqrt(np.mean(off**2)) / ground.section.metres[1])
-    report = BedReport(name, length_change([laid.edges], laid.mesh.vertices, vertices), flatness)
-    findings = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
+    flatness = float(np.sqrt(np.mean(off**2)) / domain.section.metres[1])
+    report = BedReport(name, length_change([setup.edges], setup.mesh.vertices, vertices), flatness)
+    findings = () if np.abs(off).max() <= domain.slack else (_still_uneven(name, off),)
     return {"beds": (report,), "findings": findings}
 
 
-def _bed(ground, name, pieces, task):
-    lines = _inside(joined(pieces, ground.spacing), ground, name)
-    mesh = ground.mesh(lines)
-    return Bed(mesh, np.concatenate([edges_along(mesh, line, ground.spacing) for line in lines]), task)
+def _bed(domain, name, pieces, fingerprint):
+    lines = _inside(joined(pieces, domain.spacing), domain, name)
+    mesh = domain.mesh(lines)
+    return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), fingerprint)
 
 
 def _terms(mesh, bed, level, weights):
@@ -111,12 +111,12 @@ def _still_uneven(name, off):
     return Finding("problem", "datum", text, name)
 
 
-def _inside(lines, ground, name):
-    pieces = [merged(shapely.get_coordinates(line), ground.spacing) for line in lines]
-    lines = [ground.simplified(LineString(points)) for points in pieces if len(points) > 1]
-    if not any(line.intersection(ground.outline).length > ground.spacing for line in lines):
+def _inside(lines, domain, name):
+    pieces = [merged(shapely.get_coordinates(line), domain.spacing) for line in lines]
+    lines = [domain.simplified(LineString(points)) for points in pieces if len(points) > 1]
+    if not any(line.intersection(domain.outline).length > domain.spacing for line in lines):
         raise PickError(
-            f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or "
+            f"horizon {name!r} is no longer than the mesh spacing of {domain.spacing:.4g} m; draw more of it, or "
             "choose a finer spacing"
         )
     return lines

@@ -8,16 +8,16 @@ import pytest
 from PIL import Image
 
 import seiswidgets as sw
+from seiswidgets.widgets import restorer
 from seiswidgets.widgets.app import CHANGED, RestorationApp
-from seiswidgets.widgets.panes.still import LEFT, SIZE, TOP
-from seiswidgets.widgets.picking.picker import Picker
-from seiswidgets.widgets.restoring import restorer
-from seiswidgets.widgets.restoring.frame import Frame
-from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
-from seiswidgets.widgets.restoring.reports import Reports
-from seiswidgets.widgets.restoring.statusbar import BUSY, StatusBar
-from seiswidgets.widgets.restoring.verdict import TITLES, Verdict, findings_of
+from seiswidgets.widgets.linked_panes import LinkedPanes
+from seiswidgets.widgets.panels.reports import Reports
+from seiswidgets.widgets.picker import Picker
+from seiswidgets.widgets.section_view.still import LEFT, SIZE, TOP
 from seiswidgets.widgets.severity import LOOKS, label
+from seiswidgets.widgets.snapshot import Snapshot
+from seiswidgets.widgets.status_bar import BUSY, StatusBar
+from seiswidgets.widgets.verdict import TITLES, Verdict, findings_of
 from tests.widgets.hands import appear, drag_to, press, release
 
 LONG = 60  # seconds until a restoration must be done
@@ -98,9 +98,9 @@ def test_a_stage_that_did_not_settle_is_a_problem_said_once(unfaulted, unsettled
 
 
 def test_no_verdict_is_given_on_a_quick_look_or_on_nothing(case, unfaulted):
-    assert Frame.of(sw.Restoration(case.section)).verdict is None
-    assert Frame.of(replace(unfaulted, quick=True), moving=True).verdict is None
-    assert Frame.of(unfaulted.at(0.5), moving=True).verdict == Frame.of(unfaulted).verdict
+    assert Snapshot.of(sw.Restoration(case.section)).verdict is None
+    assert Snapshot.of(replace(unfaulted, quick=True), moving=True).verdict is None
+    assert Snapshot.of(unfaulted.at(0.5), moving=True).verdict == Snapshot.of(unfaulted).verdict
 
 
 @pytest.mark.parametrize(("finding", "role"), [(APART, "alert"), (LOOSE, "status"), (TOLD, "status")])
@@ -240,7 +240,7 @@ def test_contradicting_picks_are_a_problem_in_the_app(app, case):
 
 
 def test_no_verdict_stands_beside_a_newer_picture(app, case, monkeypatch):
-    begun, go_on, made = threading.Event(), threading.Event(), restorer.Task.restored
+    begun, go_on, made = threading.Event(), threading.Event(), restorer.RestorationJob.restored
 
     def slow(self, earlier=None, progress=None):
         if not self.quick:
@@ -249,7 +249,7 @@ def test_no_verdict_stands_beside_a_newer_picture(app, case, monkeypatch):
         return made(self, earlier, progress)
 
     monkeypatch.setattr(restorer, "BUDGET", 10.0)
-    monkeypatch.setattr(restorer.Task, "restored", slow)
+    monkeypatch.setattr(restorer.RestorationJob, "restored", slow)
     app.restoration = with_report(app.restoration, findings=(APART, LOOSE))
     assert app.panes.restored.badge.severity == "problem"
     app.picker.mode = "horizon"
