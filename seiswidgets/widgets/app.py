@@ -177,15 +177,17 @@ class RestorationApp(VBox):
         return FilePanel(self.workspace, self.keeper)
 
     def restore(self) -> None:
-        """Restore on the full mesh now, in the background; errors are shown above the panes."""
+        """Restore on the full mesh now, in the background; the verdict, or what is wrong, is said above the panes."""
         self._pressed = True
         if self._is_possible():
+            self.status.show_busy()
             self._restorer.restore(self.workspace.job)
 
     def cancel(self) -> None:
         """Cancel the restoration in progress; everything stays as it was before."""
         self._restorer.cancel()
         self._set_outdated(True)
+        self.status.hint(CHANGED)
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until everything in progress is done, as a script may want; False after the timeout in seconds."""
@@ -280,6 +282,7 @@ class RestorationApp(VBox):
 
     def _take_settled(self, change):
         if change.new and self.live and self._is_possible():
+            self.status.show_busy()
             self._restorer.restore(self.workspace.job)
 
     def _restore_soon(self):
@@ -290,8 +293,10 @@ class RestorationApp(VBox):
         if not self.live:
             self._restorer.cancel()
             self._set_outdated(True)
+            self.picker.show_findings(())
             self.status.hint(CHANGED)
             return
+        self.status.show_busy()
         if self.restoration.stages:
             self._restorer.preview(self.workspace.job)
         self._restorer.restore(self.workspace.job, REST if self.restoration.stages else 0.0)
@@ -314,18 +319,26 @@ class RestorationApp(VBox):
         self.panes.show(snapshot)
         if restoration is not None:
             self.workspace.restoration = restoration
-        self.picker.complain({})
+        self.picker.show_findings(snapshot.verdict.findings if snapshot.verdict else ())
         self.picker.redraw()
-        self.status.hint("")
+        self._show_verdict(snapshot.verdict, restoration)
         self._set_outdated(False)
         self.histogram.show(snapshot.ratio_before.ratio.ravel() if snapshot.restoration.stages else [])
+
+    def _show_verdict(self, verdict, restoration):
+        if verdict is not None:
+            self.status.judge(verdict)
+        elif restoration is None:
+            self.status.show_busy()  # a preview: the full restoration follows
+        else:
+            self.status.hint("")
 
     def _take_restoration(self):
         """Show the workspace's restoration, which is drawn already unless it was set from outside."""
         restoration = self.workspace.restoration
         if self.panes.shown.restoration is not restoration:
             self._restorer.cancel()
-            self._draw(Snapshot.of(restoration), None)
+            self._draw(Snapshot.of(restoration), restoration)
         self.panes.restoration = restoration
         self.timeline.labels = [stage.kind for stage in restoration.stages]
         self.timeline.time = len(restoration.stages)
@@ -335,8 +348,7 @@ class RestorationApp(VBox):
         """Show an error: as an alert if the user asked for a restoration, as a hint while picks are being drawn."""
         text = in_words(error)
         (self.status.alert if self._pressed else self.status.hint)(text)
-        pick = getattr(error, "pick", None)
-        self.picker.complain({pick: text} if pick else {})
+        self.picker.complain(error, "problem" if self._pressed else "note")
         self._set_outdated(True)
 
     def _set_outdated(self, outdated):

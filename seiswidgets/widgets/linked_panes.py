@@ -145,10 +145,18 @@ class LinkedPanes(VBox):
                 pane.fit()
             self.original.show(snapshot.restoration.original)
         self.restored.show(snapshot.section, moving=snapshot.moving)
+        self._mark_restored(snapshot.verdict)
         if old is None or old.restoration is not snapshot.restoration:
             self.original.carry(snapshot.restoration.maps_to_restored)
             self.restored.carry(snapshot.restoration.maps_to_original)
         self._draw_mesh()
+
+    def _mark_restored(self, verdict):
+        """Mark the restored picture where the result has a problem or a warning."""
+        if verdict is None or verdict.is_good:
+            self.restored.badge.hide()
+        else:
+            self.restored.badge.show(verdict.severity, verdict.title)
 
     @observe("restoration")
     def _take_restoration(self, change):

@@ -1,11 +1,12 @@
 """Draw faults and horizons on a section: a pane, its tools, and the list of picks."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable
 
 from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
 from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
 
 from seiswidgets.geology import validation
+from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
@@ -86,7 +87,7 @@ class Picker(VBox):
         self.editor = PickEditor(self.workspace.history, self.pane.view)
         self._others: list[SectionPane] = []
         self._drawn: dict[SectionPane, tuple] = {}
-        self._complaints: dict[str, str] = {}
+        self._complaints: dict[str, tuple[str, str]] = {}
         self.list = PicksList(self.editor, self.refresh)
         self.toolbar = self._made_toolbar()
         super().__init__([self.toolbar, self.pane, self.list])
@@ -111,9 +112,18 @@ class Picker(VBox):
         pane.on_gesture(self._handle)
         self.refresh()
 
-    def complain(self, complaints: Mapping[str, str]) -> None:
-        """Show beside picks what is wrong with them, by their names."""
-        self._complaints = dict(complaints)
+    def complain(self, error: Exception, severity: str = "problem") -> None:
+        """Show an error beside the pick that it is about, instead of earlier findings and complaints."""
+        pick = getattr(error, "pick", None)
+        self._complain_about({pick: (severity, str(error))} if pick else {})
+
+    def show_findings(self, findings: Iterable[Finding]) -> None:
+        """Show beside each pick the worst finding about it, instead of earlier ones and complaints."""
+        about = [finding for finding in worst_first(findings) if finding.pick is not None]
+        self._complain_about({finding.pick: (finding.severity, finding.text) for finding in reversed(about)})
+
+    def _complain_about(self, complaints):
+        self._complaints = complaints
         self.list.update(self._wrong())
 
     def refresh(self) -> None:
@@ -170,7 +180,7 @@ class Picker(VBox):
         button.tooltip = f"{action}: {entry.label} ({keys})" if entry else f"{action} ({keys})"
 
     def _wrong(self):
-        return {**self._complaints, **dict(self.editor.problems)}
+        return {**self._complaints, **{name: ("problem", text) for name, text in dict(self.editor.problems).items()}}
 
     def _handle(self, gesture: Gesture) -> bool:
         before = self.editor.state

@@ -8,7 +8,15 @@ from traitlets import Bool, Unicode
 
 from seiswidgets.widgets.binding import bind_control
 from seiswidgets.widgets.messages import HINT, TROUBLE
+from seiswidgets.widgets.severity import LOOKS, label
+from seiswidgets.widgets.verdict import Verdict
 
+BUSY = "Restoring…"
+VERDICT = (  # two lines on a narrow page: no more, or the panes below would jump
+    '<div role="{role}" title="{whole}" style="display: flex; align-items: center; gap: 8px; line-height: 1.2; '
+    'color: var(--jp-ui-font-color1, #212121)">{label}<span style="display: -webkit-box; -webkit-box-orient: vertical; '
+    '-webkit-line-clamp: 2; overflow: hidden">{text}</span><span style="flex: none">{rest}</span></div>'
+)
 HALF = 4.0  # iterations after which the bar of a step has come half its way
 
 
@@ -62,6 +70,21 @@ class StatusBar(Box):
     def alert(self, text: str) -> None:
         """Say what is wrong."""
         self._say(TROUBLE, text)
+
+    def show_busy(self) -> None:
+        """Say that a newer result is on its way, in the place of the verdict on an older one."""
+        self.hint(BUSY)
+
+    def judge(self, verdict: Verdict) -> None:
+        """Show the verdict on a restoration: its label, and one sentence."""
+        self.text = str(verdict)
+        self._line.value = VERDICT.format(
+            role=LOOKS[verdict.severity].role,
+            whole=escape(self.text),
+            label=label(verdict.severity, verdict.title),
+            text=escape(verdict.text),
+            rest=escape(verdict.rest),
+        )
 
     def _say(self, look, text):
         self.text = text

@@ -120,7 +120,7 @@ def test_what_is_wrong_with_a_pick_is_said_beside_it(drawn):
     drawn.refresh()
     assert name.value == "F1"
     assert message.layout.display == "none"
-    drawn.complain({"H1": f"this one is odd, and {NASTY}"})
+    drawn.complain(sw.PickError(f"this one is odd, and {NASTY}", pick="H1"))
     assert rows(drawn, "fault")[0][-1].layout.display == "none"
     *_, message = rows(drawn, "horizon")[0]
     assert "&lt;img" in message.value

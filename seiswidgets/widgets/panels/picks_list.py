@@ -9,6 +9,7 @@ from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.interaction.drawing import FAULT, HORIZON, Pick
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.widgets.messages import TROUBLE
+from seiswidgets.widgets.severity import remark
 
 TITLES = {FAULT: "Faults", HORIZON: "Horizons"}
 NONE_YET = " <i>none yet: choose {} and click along one</i>"
@@ -32,14 +33,14 @@ class PicksList(VBox):
         super().__init__()
         self.update({})
 
-    def update(self, complaints: dict[str, str]) -> None:
-        """Show the editor's picks as they are, and beside them what is wrong, by name."""
+    def update(self, complaints: dict[str, tuple[str, str]]) -> None:
+        """Show the editor's picks as they are, and beside each its complaint: a severity and a text, by name."""
         children = []
         for kind, rows in self._rows.items():
             picks = [pick for pick in self._pen.drawing.picks if pick.kind == kind]
             rows.extend(_Row(self) for _ in range(len(picks) - len(rows)))
             for row, pick in zip(rows, picks, strict=False):
-                row.update(pick, self.is_chosen(pick), complaints.get(pick.name, ""))
+                row.update(pick, self.is_chosen(pick), complaints.get(pick.name))
             self._titles[kind].value = f"<b>{TITLES[kind]}</b>" + ("" if picks else NONE_YET.format(kind.title()))
             children += [self._titles[kind], *rows[: len(picks)]]
         if tuple(children) != self.children:
@@ -85,7 +86,7 @@ class _Row(VBox):
         self._name.observe(self._on_name, "value")
         self._delete.on_click(lambda _: self._edit(owner.editor.delete))
 
-    def update(self, pick: Pick, chosen: bool, complaint: str):
+    def update(self, pick: Pick, chosen: bool, complaint: tuple[str, str] | None):
         """Show a pick."""
         self._pick = pick  # first: a control that is made to show it then changes nothing
         self._name.value, self._visible.value, self._choose.value = pick.name, pick.visible, chosen
@@ -96,16 +97,16 @@ class _Row(VBox):
         self._visible.tooltip = f"{act} this {pick.kind}; hidden picks take part in the restoration"
         self._name.tooltip = f"name of this {pick.kind}"
         self._delete.tooltip = f"delete this {pick.kind}; undo brings it back"
-        self._say(complaint)
+        self._say(remark(*complaint) if complaint else "")
 
-    def _say(self, text):
-        self._message.value = TROUBLE.format(escape(text))
-        self._message.layout.display = "" if text else "none"
+    def _say(self, html):
+        self._message.value = html
+        self._message.layout.display = "" if html else "none"
 
     def _edit(self, action, *arguments):
         wrong = self._owner.edit(action, self._pick.kind, self._pick.name, *arguments)
         if wrong:
-            self._say(wrong)
+            self._say(TROUBLE.format(escape(wrong)))
 
     def _on_choose(self, change):
         if change.new != self._owner.is_chosen(self._pick):

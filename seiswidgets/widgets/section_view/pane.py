@@ -19,6 +19,7 @@ from seiswidgets.interaction.viewport import Viewport, checked_window
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.order import keep_order
+from seiswidgets.widgets.section_view.badge import PaneBadge
 from seiswidgets.widgets.section_view.canvas import held
 from seiswidgets.widgets.section_view.painter import Painter
 from seiswidgets.widgets.section_view.pointer_layer import PointerLayer
@@ -68,6 +69,8 @@ class SectionPane(VBox):
         How the pane shows the present-day section, in whose coordinates gestures are; may be set. That of a pane of
         the present-day section itself if not.
     layer : PointerLayer
+    badge : PaneBadge
+        Frame and label that mark the picture, as one of a result that needs a look.
     message : str
         What is said below the pane, of an error mostly.
 
@@ -99,7 +102,8 @@ class SectionPane(VBox):
         self._painter = Painter(_placed())
         self._painter.canvas.add_class("seiswidgets-plot")
         self.layer = PointerLayer(hotkeys=list(KEYS), layout=_placed())
-        self._grid = GridBox([self._painter.canvas, self.layer], layout=_grid_layout(480))
+        self.badge = PaneBadge(_placed())
+        self._grid = GridBox([self._painter.canvas, self.layer, self.badge], layout=_grid_layout(480))
         self._line = HTML(layout=Layout(display="none"))
         super().__init__([self._grid, self._line], section=section, view=Viewport(section), **settings)
         self._grid.layout.height = f"{self.height}px"
