@@ -18,6 +18,7 @@ from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.binding import bind
+from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.files.file_panel import FilePanel
 from seiswidgets.widgets.files.session_bar import SessionBar
 from seiswidgets.widgets.histogram import DeformationHistogram
@@ -41,10 +42,11 @@ from seiswidgets.widgets.workspace import Workspace
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
 CHANGED = "Something has changed since: press Restore."
+PATIENCE = 10.0  # seconds that a closing app gives its threads to end
 SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
 
 
-class RestorationApp(VBox):
+class RestorationApp(WithParts, VBox):
     """Draw faults and horizons on a section, restore it, and look at what that took.
 
     On the left is the present-day section, on the right the restored one; lines can be drawn in either. While something
@@ -194,13 +196,19 @@ class RestorationApp(VBox):
         return all(part.wait(timeout) for part in (*self._made_files, self.keeper, self._restorer, self._player))
 
     def close(self) -> None:
-        """Cancel what is in progress, save what is not saved yet, and take the app off the screen."""
+        """Stop what is in progress, save what is not saved yet, take the app off the screen, and free its memory.
+
+        Every part is closed, and the memory is freed as soon as nothing else refers to the app: in a notebook, that is
+        your own variables and what IPython keeps of earlier outputs (``%reset -f out``). An app whose cell is run again
+        is not closed by that; close it first.
+        """
         if self.comm is None:  # closed before, or never made
             return
         self._restorer.cancel()
         self._player.cancel()
         for panel in self._made_files:
             panel.end()
+        self.wait(PATIENCE)
         try:
             self.keeper.end()
         finally:

@@ -64,6 +64,8 @@ class Job(Generic[Result]):
             self._deliver(partial(self._failed, error))
 
     def _deliver(self, action):
+        if not self._is_newest:
+            return
         with UI_LOCK:
             if self._is_newest:
                 action()
@@ -105,8 +107,10 @@ class JobRunner:
             self._changed.notify_all()
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until there is nothing left to do; False after the timeout in seconds."""
+        """Wait until there is nothing left to do; False after the timeout in seconds, or if a job itself asks."""
         with self._changed:
+            if self._thread is threading.current_thread():
+                return False
             return self._changed.wait_for(lambda: self._thread is None, timeout)
 
     def _drop(self):
@@ -115,8 +119,15 @@ class JobRunner:
         self._waiting = None
 
     def _work(self):
-        while job := self._next():
+        while self._run_next():
+            pass
+
+    def _run_next(self):
+        """Run the next job; False if there is none. In a frame of its own, so that no job is held after its end."""
+        job = self._next()
+        if job is not None:
             job.run()
+        return job is not None
 
     def _next(self):
         with self._changed:

@@ -13,6 +13,7 @@ from seiswidgets.interaction.colour import RatioColouring, clip_limit
 from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
+from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.section_view.canvas import held
 from seiswidgets.widgets.section_view.pane import SectionPane
@@ -48,7 +49,7 @@ class Reading:
     ratio: float
 
 
-class LinkedPanes(VBox):
+class LinkedPanes(WithParts, VBox):
     """Two panes: the cursor in one shows at its mapped place in the other, at once.
 
     Parameters
@@ -82,7 +83,7 @@ class LinkedPanes(VBox):
             restoration = Restoration(restoration)
         section = restoration.original
         self.original, self.restored = (SectionPane(section, height=height) for _ in range(2))
-        self._snapshot, self._readers = None, []
+        self._snapshot, self._readers, self._links = None, [], []
         self.restored.projection = self.projection
         self._readout = HTML(READOUT.format(""))
         self._tie_panes()
@@ -95,7 +96,7 @@ class LinkedPanes(VBox):
 
     def _tie_panes(self):
         for one, other in ((self.original, self.restored), (self.restored, self.original)):
-            jslink((one.layer, "carried"), (other.layer, "linked"))
+            self._links.append(jslink((one.layer, "carried"), (other.layer, "linked")))
             one.on_hover(lambda point, pane=one: self._read(point, pane))
             one.observe(lambda change, pane=other: self._zoom_too(pane, change.new), "view")
         self.original.observe(self._share, SHARED)

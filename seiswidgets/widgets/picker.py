@@ -17,6 +17,7 @@ from seiswidgets.interaction.gestures import Gesture
 from seiswidgets.interaction.scene import marks, rubber, strokes
 from seiswidgets.interaction.snapping import EVENTS, followed, snapped
 from seiswidgets.widgets.binding import bind, bind_control
+from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panels.picks_list import PicksList
@@ -39,7 +40,7 @@ MODE_NAMES = {
 }
 
 
-class Picker(VBox):
+class Picker(WithParts, VBox):
     """A section on which faults and horizons are drawn; every edit can be undone.
 
     The modes are look, fault, horizon, and hold. In fault and horizon mode a click adds a vertex, a double click or
@@ -94,6 +95,7 @@ class Picker(VBox):
         keep_order(self)
         self._bind()
         self.attach(self.pane)
+        self.borrowed = (section,) if isinstance(section, SectionPane) else ()
         for name, value in settings.items():
             setattr(self, name, value)
         self.workspace.history.forget()
@@ -108,8 +110,9 @@ class Picker(VBox):
         """Draw in a further pane too, by its own projection."""
         if pane is not self.pane:
             self._others.append(pane)
+            self.borrowed += (pane,)
         pane.take_keys(KEYS)
-        pane.on_gesture(self._handle)
+        pane.on_gesture(lambda gesture: self.comm is not None and self._handle(gesture))
         self.refresh()
 
     def complain(self, error: Exception, severity: str = "problem") -> None:

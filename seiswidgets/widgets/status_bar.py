@@ -40,13 +40,18 @@ class StatusBar(Box):
     text = Unicode()
 
     def __init__(self, restore: Callable[[], None], cancel: Callable[[], None]):
-        button = Button(description="Restore", icon="play", button_style="primary", tooltip="restore the section now")
-        live = ToggleButton(description="Live", icon="bolt", tooltip="restore by itself after every change")
+        auto = {"width": "auto"}
+        button = Button(
+            description="Restore", icon="play", button_style="primary", tooltip="restore the section now", layout=auto
+        )
+        live = ToggleButton(
+            description="Live", icon="bolt", tooltip="restore by itself after every change", layout=auto
+        )
         self._bar = FloatProgress(min=0, max=1, layout=Layout(width="100px"))
         self._label = Label(layout=Layout(width="270px"))
-        self._cancel = Button(description="Cancel", icon="stop", tooltip="give up the restoration that is under way")
-        for widget in (button, live, self._cancel):
-            widget.layout = Layout(width="auto")
+        self._cancel = Button(
+            description="Cancel", icon="stop", tooltip="give up the restoration that is under way", layout=auto
+        )
         self._progress = HBox([self._bar, self._label, self._cancel], layout=Layout(display="none"))
         self._line = HTML(layout=Layout(flex="1 1 0", min_width="0", margin="2px"))
         button.on_click(lambda _: restore())

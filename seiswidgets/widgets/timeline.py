@@ -6,12 +6,13 @@ from ipywidgets import HBox, IntSlider, Label, Layout, Play, jslink
 from traitlets import Float, List, Unicode, observe, validate
 
 from seiswidgets.errors import SettingError
+from seiswidgets.widgets.closing import WithParts
 
 FRAMES = 20  # a step
 INTERVAL = 100  # ms from frame to frame
 
 
-class Timeline(HBox):
+class Timeline(WithParts, HBox):
     """A moment between the section of today and the restored one, on a slider with Play.
 
     Play runs to the end once, from today if it is at the end. With the keyboard: Tab goes to Play and to the slider,

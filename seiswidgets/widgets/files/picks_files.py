@@ -36,7 +36,7 @@ PLACES = {
     "the way along a line through these points": POINTS,
 }
 REPLACE, LEAVE = "Replace it", "Leave it"
-STYLE, WIDE = {"description_width": "130px"}, Layout(width="auto")
+STYLE, WIDE = {"description_width": "130px"}, {"width": "auto"}  # Layouts would be shared by all apps
 
 
 class PicksFiles(VBox):

@@ -61,8 +61,9 @@ class ResultFiles(VBox):
     def __init__(self, workspace: Workspace):
         self._workspace, self.written, self.notice = workspace, (), Question()
         self.job = BackgroundJob(self.notice, lambda: f"The export was cancelled. {self._done()}")
-        self.folder = Text("results", description="folder", placeholder="a folder, as results", style=STYLE)
-        self.stem = Text(description="name", placeholder="that of the section", style=STYLE)
+        look = {"style": STYLE, "layout": {"width": "auto", "flex": "1 1 160px"}}
+        self.folder = Text("results", description="folder", placeholder="a folder, as results", **look)
+        self.stem = Text(description="name", placeholder="that of the section", **look)
         self.kinds = {
             ending: Checkbox(ending in WRITERS_AT_FIRST, description=words, indent=False, layout=Layout(width="auto"))
             for ending, (words, _) in WRITERS.items()
@@ -71,8 +72,6 @@ class ResultFiles(VBox):
         self._export.on_click(lambda _: self.notice.attempt(self.export))
         self.job.observe(lambda change: setattr(self._export, "disabled", change.new), "busy")
         columns = Layout(grid_template_columns="repeat(auto-fit, minmax(180px, 1fr))")
-        for field in (self.folder, self.stem):
-            field.layout = Layout(width="auto", flex="1 1 160px")
         where = HBox([self.folder, self.stem], layout=Layout(flex_flow="row wrap"))
         kinds = GridBox(list(self.kinds.values()), layout=columns)
         super().__init__([where, kinds, HBox([self._export, self.job]), self.notice])

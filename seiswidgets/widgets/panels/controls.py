@@ -15,7 +15,8 @@ COLOURS = ("greys", "red-white-blue", "seismic", "bwr", "PuOr", "BrBG", "Spectra
 POLARITIES = [("normal: peaks are positive", 1), ("reversed", -1)]
 SOLVERS = {"gauss-newton": "Gauss-Newton (ours)", "fixed-point": "fixed point (the paper's)"}
 RANGE = 4.0  # times the usual mesh spacing, either way
-WIDE, STYLE = Layout(width="auto"), {"description_width": "130px"}
+STYLE = {"description_width": "130px"}
+LOOK = {"layout": {"width": "auto"}, "style": STYLE}  # as dicts: a Layout made here would be shared by all apps
 
 
 class DisplayControls(VBox):
@@ -28,25 +29,24 @@ class DisplayControls(VBox):
 
     def __init__(self, panes: LinkedPanes):
         first = panes.original
-        colours = Dropdown(options=sorted({*COLOURS, first.colours}, key=_place), description="colours")
+        colours = sorted({*COLOURS, first.colours}, key=_place)
         rows = [
-            (first, "colours", colours),
-            (first, "clip", FloatSlider(min=50, max=100, step=0.5, description="clip (percentile)")),
-            (first, "gain", FloatLogSlider(min=-1, max=1, step=0.02, description="gain", readout_format=".2f")),
-            (first, "polarity", Dropdown(options=POLARITIES, description="polarity")),
-            (panes, "deformation", FloatSlider(min=0, max=1, step=0.05, description="deformation")),
-            (panes, "mesh", FloatSlider(min=0, max=1, step=0.05, description="mesh")),
-            (panes, "zoom_linked", Checkbox(description="both panes zoom together", indent=False)),
+            (first, "colours", Dropdown(options=colours, description="colours", **LOOK)),
+            (first, "clip", FloatSlider(min=50, max=100, step=0.5, description="clip (percentile)", **LOOK)),
+            (first, "gain", FloatLogSlider(min=-1, max=1, step=0.02, description="gain", readout_format=".2f", **LOOK)),
+            (first, "polarity", Dropdown(options=POLARITIES, description="polarity", **LOOK)),
+            (panes, "deformation", FloatSlider(min=0, max=1, step=0.05, description="deformation", **LOOK)),
+            (panes, "mesh", FloatSlider(min=0, max=1, step=0.05, description="mesh", **LOOK)),
+            (panes, "zoom_linked", Checkbox(description="both panes zoom together", indent=False, **LOOK)),
         ]
         for owner, name, widget in rows:
-            widget.layout, widget.style = WIDE, STYLE
             bind_control(owner, name, widget)
         super().__init__([_exaggeration(first), *(widget for _, _, widget in rows)])
 
 
 def _exaggeration(pane):
     """The vertical exaggeration, to three digits; the pane's own is changed only by who types another."""
-    text = BoundedFloatText(min=0.01, max=1000, step=0.1, description="vertical exagg. (×)", layout=WIDE, style=STYLE)
+    text = BoundedFloatText(min=0.01, max=1000, step=0.1, description="vertical exagg. (×)", **LOOK)
 
     def rounded():
         return float(f"{pane.exaggeration:.3g}")
@@ -85,8 +85,7 @@ class SolverControls(VBox):
         self._usual = Button(
             icon="undo", tooltip="the usual spacing, of about 2,500 vertices", layout=Layout(width="36px")
         )
-        solver = Dropdown(options=[(name, key) for key, name in SOLVERS.items()], description="solver", layout=WIDE)
-        solver.style = STYLE
+        solver = Dropdown(options=[(name, key) for key, name in SOLVERS.items()], description="solver", **LOOK)
         super().__init__([HBox([self._slider, self._usual]), solver])
         bind(self, "spacing", workspace, lambda document: document.plan.spacing, self._change_spacing)
         bind(self, "solver", workspace, lambda document: document.plan.solver, self._change_solver)

@@ -13,7 +13,7 @@ from seiswidgets.widgets.severity import remark
 
 TITLES = {FAULT: "Faults", HORIZON: "Horizons"}
 NONE_YET = " <i>none yet: choose {} and click along one</i>"
-NARROW = Layout(width="34px", min_width="34px", padding="0")
+NARROW = {"width": "34px", "min_width": "34px", "padding": "0"}  # a Layout would be shared by all apps
 
 
 class PicksList(VBox):

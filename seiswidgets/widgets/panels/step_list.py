@@ -12,6 +12,7 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import FLATTEN, UNFAULT, Plan, Step
+from seiswidgets.widgets.closing import WithParts
 
 ALL = {UNFAULT: "all faults", FLATTEN: "first horizon"}  # what no picks mean
 ICONS = {"up": "arrow-up", "down": "arrow-down", "remove": "trash"}
@@ -106,7 +107,7 @@ class StepRow(VBox):
         self._choice.observe(self._choose, "value")
 
 
-class StepList(VBox):
+class StepList(WithParts, VBox):
     """The steps of a plan, one a row: on or off, what it works on, the datum, and buttons to move and remove it.
 
     With the keyboard: Tab goes through a row's controls and on to the next, Space or Enter presses a button; the focus

@@ -7,6 +7,7 @@ from ipywidgets import HTML, Button, FloatLogSlider, HBox, Label, Layout, VBox
 from traitlets import Instance, observe
 
 from seiswidgets.geology.weights import Weights
+from seiswidgets.widgets.closing import WithParts
 
 LOWEST, HIGHEST = -2, 3  # powers of 10
 STEP = 0.05  # of the power: twenty to a factor of ten
@@ -39,7 +40,7 @@ GROUPS = {
 }
 
 
-class WeightSliders(VBox):
+class WeightSliders(WithParts, VBox):
     """The weights on logarithmic sliders from 0.01 to 1,000, under the paper's symbols, and a button that resets them.
 
     A weight that is set from code and has no place on its slider, as 0, is kept until that slider is moved. With the

@@ -16,6 +16,7 @@ from seiswidgets.interaction.navigation import KEYS, Navigation
 from seiswidgets.interaction.overlay import Mark, Overlay, Stroke, map_state, mesh_state
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport, checked_window
+from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.order import keep_order
@@ -28,7 +29,7 @@ LEFT, TOP, RIGHT, BOTTOM = 64, 10, 16, 42  # css pixels about the plot area, for
 QUIET = ("hover", "leave", "rest", "size")  # what happens without anybody doing anything, and leaves the message alone
 
 
-class SectionPane(VBox):
+class SectionPane(WithParts, VBox):
     """A section with axes: the wheel zooms at the pointer, a drag pans, a double click or 0 fits, + and - zoom.
 
     Two fingers zoom and pan as well; the middle button or Space held pan even where a drag does something else.

@@ -15,7 +15,10 @@ ANSWERED = ("drag", "hover", "wheel", "pinch")  # of these the browser sends non
 
 
 def joined(*scripts: Path) -> str:
-    """Scripts as one ES module: they share one scope, so that no build step is needed."""
+    """Scripts as one ES module: they share one scope, so that no build step is needed.
+
+    Style sheets are passed to anywidget as text too: a file that it reads itself keeps every widget alive for ever.
+    """
     return "\n".join(script.read_text("utf-8") for script in scripts)
 
 
@@ -56,7 +59,7 @@ class PointerLayer(anywidget.AnyWidget):
     """
 
     _esm = joined(*(LAYER / f"{name}.js" for name in SCRIPTS))
-    _css = LAYER / "layer.css"
+    _css = joined(LAYER / "layer.css")
 
     axes = Dict().tag(sync=True)
     window = List().tag(sync=True)
