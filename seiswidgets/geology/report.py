@@ -132,7 +132,7 @@ class Report:
         return f"<table>{''.join(cells)}</table>"
 
 
-def _label_style(label):
+def _label_style(label: str) -> str:
     """CSS of a row's label; findings are coloured by severity."""
     fill, ink = COLOURS.get(label, ("", ""))
     return "text-align: left" + (f"; background: {fill}; color: {ink}" if fill else "")

@@ -20,7 +20,7 @@ class BrowserStorage(anywidget.AnyWidget):
         Why the browser cannot keep a text, in its own words; "" if it can.
     """
 
-    _esm = Path(__file__).with_name("browserstorage.js").read_text("utf-8")
+    _esm = Path(__file__).with_name("browser_storage.js").read_text("utf-8")
 
     kept = Dict().tag(sync=True)
     found = Instance(dict, allow_none=True)

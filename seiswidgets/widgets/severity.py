@@ -8,8 +8,8 @@ from seiswidgets.geology.findings import COLOURS
 GOOD = "good"
 LABEL = (
     '<span style="display: inline-flex; flex: none; align-items: center; gap: 4px; padding: 0 8px; border-radius: 9px; '
-    "background: {fill}; color: {ink}; font-size: 12px; font-weight: 600; line-height: 18px; white-space: nowrap; "
-    'vertical-align: middle">{icon}{text}</span>'
+    "background: {fill}; color: {ink}; font-size: 12px; font-weight: 600; min-height: 18px; line-height: 18px; "
+    'white-space: nowrap; vertical-align: middle">{icon}{text}</span>'
 )
 ICON = (
     '<svg role="img" aria-label="{severity}" viewBox="0 0 16 16" width="12" height="12" fill="none" '

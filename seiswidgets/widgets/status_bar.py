@@ -12,7 +12,7 @@ from seiswidgets.widgets.severity import LOOKS, label
 from seiswidgets.widgets.verdict import Verdict
 
 BUSY = "Restoring…"
-VERDICT = (  # two lines on a narrow page: no more, or the panes below would jump
+VERDICT = (  # two lines at most, for which there is room: the panes below must not jump
     '<div role="{role}" title="{whole}" style="display: flex; align-items: center; gap: 8px; line-height: 1.2; '
     'color: var(--jp-ui-font-color1, #212121)">{label}<span style="display: -webkit-box; -webkit-box-orient: vertical; '
     '-webkit-line-clamp: 2; overflow: hidden">{text}</span><span style="flex: none">{rest}</span></div>'
@@ -57,7 +57,7 @@ class StatusBar(Box):
         button.on_click(lambda _: restore())
         self._cancel.on_click(lambda _: cancel())
         self.buttons = HBox([button, live])
-        super().__init__([self._line, self._progress], layout=Layout(align_items="center", min_height="36px"))
+        super().__init__([self._line, self._progress], layout=Layout(align_items="center", min_height="42px"))
         bind_control(self, "live", live)
 
     def tell(self, progress) -> None:
