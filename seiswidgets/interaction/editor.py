@@ -42,6 +42,7 @@ from seiswidgets.interaction.editor_state import MODES, EditorState, Tools
 from seiswidgets.interaction.gestures import DoubleClick, Gesture, Key, Move, Press, Release
 from seiswidgets.interaction.keyboard import press_key
 from seiswidgets.interaction.mouse import CTRL, double_click, move, press, release
+from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
 
 PICKS_EDIT = "edit of the picks"
@@ -135,6 +136,11 @@ class PickEditor:
     def redo(self) -> bool:
         """Make the edit again that was undone last; False if there is none."""
         return self._travel(self.history.redo)
+
+    def add(self, point: Point) -> None:
+        """Add a vertex to the draft line, or begin one."""
+        self.settle()
+        self._become(self.state.add(point, self._tools, PaneProjection(self.viewport)))
 
     def finish(self) -> None:
         """Turn the draft line into a pick, or a piece of one, and select it; a single point stays a draft."""

@@ -67,7 +67,7 @@ def test_work_on_a_section_is_back_when_that_is_chosen_again(opened):
     assert Work.of(gallery.app) == done
     assert done.drawing.draft.points == ((700.0, 600.0),)
     assert gallery.notice.text == BACK
-    assert not gallery.app.picker.editor.can_undo
+    assert gallery.app.workspace.history.next_undo is None
     gallery.choice = "graben"
     assert Work.of(gallery.app) == other
 
