@@ -22,6 +22,7 @@ from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.files.file_panel import FilePanel
 from seiswidgets.widgets.files.session_bar import SessionBar
 from seiswidgets.widgets.histogram import DeformationHistogram
+from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.linked_panes import LinkedPanes
 from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.names import Names
@@ -240,7 +241,8 @@ class RestorationApp(WithParts, VBox):
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
-        return [self.picker.toolbar, self.status, self.keeper, self.panes, self.keeper.news, below, Names()]
+        parts = [self.picker.toolbar, self.status, self.keeper, self.panes, self.keeper.news, below]
+        return [*parts, Names(), KeyGuard()]
 
     def _tabs(self):
         return Pages(

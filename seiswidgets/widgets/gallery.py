@@ -18,6 +18,7 @@ from seiswidgets.widgets.browser_storage import BrowserStorage
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.exhibits import EXHIBITS, Exhibit
 from seiswidgets.widgets.files.question import Question
+from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.messages import HINT, TROUBLE
 from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.work import Work, observe_work
@@ -69,7 +70,7 @@ class Gallery(WithParts, VBox):
         self._works = {}  # what has been done on each section in this kernel, by its name
         self._aside = None  # work on a section of the user's own, with that section and its source
         self._is_chosen = bool({"choice", "with_picks"} & settings.keys())
-        super().__init__([self._made_head()], **settings)
+        super().__init__([KeyGuard(), self._made_head()], **settings)
         keep_order(self)
         bind_control(self, "choice", self._chooser)
         bind_control(self, "with_picks", self._picked)
@@ -155,7 +156,7 @@ class Gallery(WithParts, VBox):
         self._fresh = Work.of(self.app)
         self._bring_back()
         observe_work(self.app, self._keep)
-        self.children = (self._head, self.app)
+        self.children = (*self.children[:2], self.app)
         self._say(HINT, " ".join(filter(None, (self.exhibit.text, _credit(self.app.section)))))
 
     def _made(self, found):
@@ -171,7 +172,7 @@ class Gallery(WithParts, VBox):
         app, self.app = self.app, None
         if not self._is_here(app) and app.picker.drawing != Drawing():
             self._aside = _work_in(app)
-        self.children = (self._head,)
+        self.children = self.children[:2]
         app.close()
         del app
         gc.collect()  # the section is large, and Python would not hurry: most of what refers to it is in circles

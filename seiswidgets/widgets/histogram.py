@@ -12,7 +12,7 @@ from seiswidgets.core.deformation import area_ratio_histogram, weighted_percenti
 from seiswidgets.errors import SettingError
 from seiswidgets.interaction.colour import RatioColouring
 from seiswidgets.widgets.closing import WithParts
-from seiswidgets.widgets.section_view.pointer_layer import LAYER, joined
+from seiswidgets.widgets.section_view.pointer_layer import KEEP_KEYS, LAYER, joined
 
 HERE = Path(__file__).parent
 EMPTY = "Nothing restored yet: there is no deformation to show."
@@ -51,7 +51,7 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
         If there is no bin, or the brush is not a range of ratios above 0; and as for `show`.
     """
 
-    _esm = joined(LAYER / "svg.js", HERE / "histogram.js")
+    _esm = joined(KEEP_KEYS, LAYER / "svg.js", HERE / "histogram.js")
     _css = joined(HERE / "histogram.css")
 
     bars = Dict().tag(sync=True)

@@ -15,6 +15,7 @@ from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.jobs import UI_LOCK
+from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.section_view.canvas import held
 from seiswidgets.widgets.section_view.pane import SectionPane
 from seiswidgets.widgets.section_view.still import still
@@ -89,7 +90,7 @@ class LinkedPanes(WithParts, VBox):
         self._tie_panes()
         columns = [VBox([HTML(HEADING.format(title)), pane]) for title, pane in self._titled()]
         panes = GridBox(columns, layout=Layout(grid_template_columns="minmax(0, 1fr) minmax(0, 1fr)", grid_gap="8px"))
-        super().__init__([panes, self._readout], restoration=restoration, **settings)
+        super().__init__([KeyGuard(), panes, self._readout], restoration=restoration, **settings)
 
     def _titled(self):
         return ("Today", self.original), ("Restored", self.restored)

@@ -19,6 +19,7 @@ from seiswidgets.interaction.snapping import EVENTS, followed, snapped
 from seiswidgets.widgets.binding import bind, bind_control
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.jobs import UI_LOCK
+from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panels.picks_list import PicksList
 from seiswidgets.widgets.section_view.pane import SectionPane
@@ -91,7 +92,7 @@ class Picker(WithParts, VBox):
         self._complaints: dict[str, tuple[str, str]] = {}
         self.list = PicksList(self.editor, self.refresh)
         self.toolbar = self._made_toolbar()
-        super().__init__([self.toolbar, self.pane, self.list])
+        super().__init__([KeyGuard(), self.toolbar, self.pane, self.list])
         keep_order(self)
         self._bind()
         self.attach(self.pane)

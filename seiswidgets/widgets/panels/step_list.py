@@ -13,6 +13,7 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import FLATTEN, UNFAULT, Plan, Step
 from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.key_guard import KeyGuard
 
 ALL = {UNFAULT: "all faults", FLATTEN: "first horizon"}  # what no picks mean
 ICONS = {"up": "arrow-up", "down": "arrow-down", "remove": "trash"}
@@ -142,7 +143,7 @@ class StepList(WithParts, VBox):
         self._rows = []  # as many as there ever were steps
         self._table = VBox()
         adders = [_adder(kind, self._add) for kind in (UNFAULT, FLATTEN)]
-        super().__init__([self._table, HBox(adders)], **traits)
+        super().__init__([KeyGuard(), self._table, HBox(adders)], **traits)
         self._adder = adders[0]
         self.steps = Plan().steps if steps is None else tuple(steps)
 

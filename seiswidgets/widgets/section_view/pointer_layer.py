@@ -10,6 +10,7 @@ from traitlets import Dict, Float, List, Unicode
 from seiswidgets.interaction.messages import PointerMessage
 
 LAYER = Path(__file__).parent / "layer"
+KEEP_KEYS = LAYER.parents[1] / "keep_keys.js"
 SCRIPTS = ("svg", "plane", "axes", "lines", "marks", "mesh", "cursors", "carry", "lanes", "hand", "keys", "layer")
 ANSWERED = ("drag", "hover", "wheel", "pinch")  # of these the browser sends none before the last is answered
 
@@ -58,7 +59,7 @@ class PointerLayer(anywidget.AnyWidget):
         What a screen reader says of it.
     """
 
-    _esm = joined(*(LAYER / f"{name}.js" for name in SCRIPTS))
+    _esm = joined(KEEP_KEYS, *(LAYER / f"{name}.js" for name in SCRIPTS))
     _css = joined(LAYER / "layer.css")
 
     axes = Dict().tag(sync=True)
