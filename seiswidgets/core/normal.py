@@ -116,10 +116,12 @@ class NormalEquations:
         self._ordering = self._cholesky.ordering
         self.analyses += 1
 
-    def _numbers_of(self, number, data, factor=None):
+    def _numbers_of(self, number, data):
         """What a steady term adds to the matrix."""
-        products = self._gram[number].products(data, factor)
-        return np.bincount(self._place[number], products, minlength=len(self._keys))
+        return self._at_places(self._place[number], self._gram[number].products(data))
+
+    def _at_places(self, place, products):
+        return np.bincount(place, products, minlength=len(self._keys))
 
     def at(self, terms, vertices, residuals):
         """Take in the residuals and Jacobians at these positions.
@@ -147,9 +149,17 @@ class NormalEquations:
         self._numbers = self._unchanging.copy()
         for number, jacobian in steady:
             self._numbers += self._numbers_of(number, jacobian.data)
-        self._bent = {n: terms[n].curvature(vertices) for n, _ in steady if hasattr(terms[n], "curvature")}
-        for gram, data in grams:
-            np.add.at(self._numbers, np.searchsorted(self._keys, gram.keys), gram.products(data))
+        places = [(terms[number], self._gram[number], self._place[number]) for number, _ in steady]
+        for (number, _), (gram, data) in zip(moving, grams, strict=True):
+            place = np.searchsorted(self._keys, gram.keys)
+            self._numbers += self._at_places(place, gram.products(data))
+            places.append((terms[number], gram, place))
+        self._bent = [
+            (gram, place, layer)
+            for term, gram, place in places
+            if hasattr(term, "curvature")
+            for layer in term.curvature(vertices)
+        ]
 
     def _widen(self, wanted):
         keys = np.concatenate([np.empty(0, np.int64), *wanted])
@@ -182,8 +192,9 @@ class NormalEquations:
         """
         numbers = self._numbers.copy()
         if bending is not None:
-            for number, (data, factor) in self._bent.items():
-                numbers += self._numbers_of(number, data, np.where(factor > 0, factor, bending * factor))
+            for gram, place, (data, factor) in self._bent:
+                convex = np.where(factor > 0, factor, bending * factor)
+                numbers += self._at_places(place, gram.products(data, convex))
         numbers[self._diagonal] += damping * self._numbers[self._diagonal].sum() / max(self.size, 1)
         self.factorisations += 1
         self._cholesky.factorise(numbers)

@@ -40,6 +40,15 @@ class Bed:
     edges: np.ndarray
     task: tuple
 
+    @property
+    def reach(self) -> float:
+        """What multiplies the horizon's weights: the root of the number of its edges.
+
+        A horizon is a line, but has to move an area, whose stiffness stays the same on a finer mesh while that of the
+        line's edges falls. With this factor the horizon keeps its length, and lies level, on any mesh.
+        """
+        return float(np.sqrt(len(self.edges)))
+
 
 def flattened(ground: Ground, name: str, pieces, datum: float | None, options: Options) -> Stage:
     """The stage that makes a horizon level.
@@ -60,9 +69,9 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     laid = laid_before(options.start, task) or _bed(ground, name, pieces, task)
     mesh, bed = laid.mesh, laid.edges
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
-    level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
+    level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten * laid.reach)
     free = np.ones(len(mesh.vertices), bool)
-    terms = _terms(mesh, bed, level, options.weights)
+    terms = _terms(laid, level, options.weights)
     start = warm_start(mesh, free, options.start)
     start = mesh.vertices if start is None else start
     solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where)
@@ -89,13 +98,14 @@ def _bed(ground, name, pieces, task):
     return Bed(mesh, np.concatenate([edges_along(mesh, line, ground.spacing) for line in lines]), task)
 
 
-def _terms(mesh, bed, level, weights):
-    others = mesh.edges[~np.isin(edge_keys(mesh.edges), edge_keys(bed))]
+def _terms(laid, level, weights):
+    mesh = laid.mesh
+    others = mesh.edges[~np.isin(edge_keys(mesh.edges), edge_keys(laid.edges))]
     return [
         MeanValue(mesh, weights.mean_value),
         ContourLaplacian(mesh, weights.contour),
         EdgeLength(mesh.vertices, others, weights.edge),
-        EdgeLength(mesh.vertices, bed, weights.length, "bed length"),
+        EdgeLength(mesh.vertices, laid.edges, weights.length * laid.reach, "bed length"),
         level,
         AreaBarrier(mesh),
     ]

@@ -17,7 +17,7 @@ from seiswidgets.core.triangulation import edges_along
 from seiswidgets.core.weld import welded
 from seiswidgets.errors import PickError
 from seiswidgets.geology.cutoffs import CutOffs, Drawing
-from seiswidgets.geology.faultlines import EDGES, fault_lines, with_points
+from seiswidgets.geology.faultlines import CLOSE, EDGES, crossings, fault_lines, passing_through, with_points
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.parts import parts
@@ -120,27 +120,41 @@ def _achieved(blocks, solution, ground):
 
 
 def _blocks(ground, faults, horizons, task):
-    drawn = fault_lines(faults, ground)
-    drawing = Drawing(
-        drawn, {name: parts(pieces, list(drawn.values())) for name, pieces in horizons.items()}, ground.where
-    )
+    drawing = _drawing(fault_lines(faults, ground), horizons, ground)
     cutoffs = drawing.cutoffs()
-    lines = {name: _meshed_line(name, line, drawing, ground) for name, line in drawn.items()}
+    lines = {name: _meshed_line(name, line, drawing, ground) for name, line in drawing.faults.items()}
     beds = {name: [ground.simplified(part.line) for part in horizon] for name, horizon in drawing.horizons.items()}
     whole = ground.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
     edges = {name: _inner_edges(whole, line, name, ground) for name, line in lines.items()}
-    cut = whole.cut(np.concatenate(list(edges.values())))
-    beds = {name: [cut.along(edges_along(whole, line, ground.spacing)) for line in bed] for name, bed in beds.items()}
+    slipped = np.concatenate(list(edges.values()))
+    cut = whole.cut(slipped)
+    beds = {
+        name: [cut.along(edges_along(whole, line, ground.spacing, without=slipped)) for line in bed]
+        for name, bed in beds.items()
+    }
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, drawing, ground)
     return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds, task)
 
 
+def _drawing(drawn, horizons, ground):
+    """Faults and horizons matched with each other, the faults without drawn points that lie close to a cut-off."""
+    drawing = _matched(drawn, horizons, ground)
+    settled = {
+        name: passing_through(line, drawing.ends_at(name), crossings(name, drawn), CLOSE * ground.spacing)
+        for name, line in drawn.items()
+    }
+    return drawing if settled == drawn else _matched(settled, horizons, ground)
+
+
+def _matched(drawn, horizons, ground):
+    faults = list(drawn.values())
+    return Drawing(drawn, {name: parts(pieces, faults) for name, pieces in horizons.items()}, ground.where)
+
+
 def _meshed_line(name, line, drawing, ground):
     """A fault with its cut-offs among its points, in edges short enough to slip along."""
-    number = list(drawing.faults).index(name)
-    ends = (end for horizon in drawing.horizons.values() for part in horizon for end in part.ends)
-    line = with_points(line, [end.point for end in ends if end and end.fault == number])
+    line = with_points(line, drawing.ends_at(name))
     return line.segmentize(min(ground.spacing, line.length / EDGES))
 
 
