@@ -9,7 +9,7 @@ import seiswidgets as sw
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.solver import gauss_newton
 from seiswidgets.geology import flattening, unfaulting
-from seiswidgets.geology.solving import TOLERANCE
+from seiswidgets.geology.solve import TOLERANCE
 
 
 @dataclass

@@ -9,7 +9,7 @@ from problems import problem
 from timing import at_most, faster, in_turns, told
 
 import seiswidgets as sw
-from seiswidgets.core import normal
+from seiswidgets.core import normal_equations
 from seiswidgets.core.cholesky import Cholesky, NotPositiveDefinite
 from seiswidgets.core.rigid import rigid_blocks
 from seiswidgets.core.solver import fixed_point
@@ -100,7 +100,7 @@ def overhead(what, problem, runs):
             with suppress(NotPositiveDefinite):
                 getattr(cholesky, name)(*given)
 
-    with patch.object(normal, "Cholesky", Recording):
+    with patch.object(normal_equations, "Cholesky", Recording):
         solution = problem.solved()
     whole, alone = in_turns([problem.solved, replayed], runs)
     settled = "" if solution.converged else ", NOT SETTLED"

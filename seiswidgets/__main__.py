@@ -9,7 +9,7 @@ from pathlib import Path
 
 from seiswidgets import __version__
 from seiswidgets.errors import SeiswidgetsError
-from seiswidgets.io.replay import output_names, replayed
+from seiswidgets.io.session.replay import output_names, replayed
 
 WIDTH = 24  # of the bar
 SHARE = 5  # iterations, after which half of a step is shown as done: nobody knows how many it will take

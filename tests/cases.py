@@ -12,7 +12,7 @@ from shapely import LineString
 from shapely.ops import split, substring
 
 import seiswidgets as sw
-from seiswidgets.geology.history import BlindSlip, Circular, RigidMotion, Straight
+from seiswidgets.geology.kinematics import BlindSlip, Circular, RigidMotion, Straight
 
 WIDTH, DEPTH = 4000.0, 2000.0
 SECTION = sw.Section(np.zeros((201, 161), np.float32), 25.0, 10.0)

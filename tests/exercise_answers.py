@@ -35,7 +35,7 @@ ANSWERS = {
     "03_fault_restoration": [
         ("43.7 m", {"330": "other way round", "41": "takes the throw for the slip", "128": "along the fault"}),
         (
-            "the likeness",
+            "the cross_fault_correlation",
             {
                 "the deformation": "slid as a whole",
                 "how far the cut-offs are apart": "the wrong ones too",
@@ -77,7 +77,7 @@ ANSWERS = {
             "throw in metres",
             {
                 "throw in ms": "no velocity comes in",
-                "likeness": "it changes by",
+                "cross_fault_correlation": "it changes by",
                 "deformation": "not in proportion",
                 "none of them": "as steeply",
             },

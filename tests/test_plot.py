@@ -7,8 +7,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 import seiswidgets as sw
+from seiswidgets.core.deformation import AREA_RATIO_COLOURS
 from seiswidgets.core.mesh import Mesh
-from seiswidgets.plot.palette import AREA_RATIO
 
 AMPLITUDE = np.random.default_rng(0).normal(size=(40, 60))
 DEPTH = sw.Section(AMPLITUDE, dx=25.0, dz=10.0, x0=1000.0, z0=200.0)
@@ -199,7 +199,7 @@ def test_bars_of_the_histogram_add_up_and_have_the_colours_of_the_map(restored):
     assert sum(bar.get_height() for bar in bars) == pytest.approx(1.0)
     middle = np.sqrt(bars[3].get_x() * (bars[3].get_x() + bars[3].get_width()))
     np.testing.assert_allclose(bars[3].get_facecolor(), triangles.to_rgba(middle), atol=0.01)
-    assert triangles.cmap.name == AREA_RATIO
+    assert triangles.cmap.name == AREA_RATIO_COLOURS
 
 
 def test_the_colour_bar_says_what_it_measures(restored):

@@ -49,7 +49,7 @@ def what_tells(by_match: dict[str, list[float]]) -> Choice:
         "the deformation": "All triangles kept their areas with every match: the block slid as a whole each time.",
         "how far the cut-offs are apart": "The solver brings together whatever you call cut-offs, the wrong ones too.",
         "whether the solver settled": "It settled each time. That says the question was clear, not that it was right.",
-        "the likeness": "Look at the figure again: this is the one that changes.",
+        "the correlation": "Look at the figure again: this is the one that changes.",
     }
     answer = max(by_match, key=lambda name: max(by_match[name]) - min(by_match[name]))
     return Choice(

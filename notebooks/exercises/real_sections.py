@@ -76,7 +76,7 @@ def what_hangs_on_velocity(numbers: dict[float, dict[str, float]]) -> Choice:
 
     hints = {
         "throw in ms": "It is measured in the section as it was recorded: no velocity comes in.",
-        "likeness": f"Look at the figure: it changes by {change('likeness') - 1:.0%}, while the velocity doubles.",
+        "correlation": f"In the figure it changes by {change('correlation') - 1:.0%}, while the velocity doubles.",
         "throw in metres": "Look at the figure again: this one follows the velocity.",
         "deformation": f"It grows by {change('deformation') - 1:.0%} while the velocity doubles: not in proportion.",
         "none of them": "Look at the figure: one of its lines goes up as steeply as the velocity does.",

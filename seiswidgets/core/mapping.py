@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from seiswidgets.core.finder import (
+from seiswidgets.core.point_location import (
     TOLERANCE,
     TriangleFinder,
     barycentric_coefficients,

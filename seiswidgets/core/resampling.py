@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 from scipy.ndimage import distance_transform_edt, map_coordinates, spline_filter
 
-from seiswidgets.core.finder import TOLERANCE, batches
+from seiswidgets.core.point_location import TOLERANCE, batches
 from seiswidgets.errors import SettingError
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.sparse import csr_array
 
-from seiswidgets.core.solver import energy, held_now
+from seiswidgets.core.solver import energy, update_contacts
 
 TURN = 1e-4  # radians; a start need not be better
 
@@ -32,7 +32,7 @@ def rigid_blocks(blocks, terms, start, free, max_iterations=30) -> np.ndarray:
     vertices = start
     labels = np.where(free, blocks, -1)
     for _ in range(max_iterations):
-        terms = held_now(terms, vertices)
+        terms = update_contacts(terms, vertices)
         residual = np.concatenate([term.residual(vertices) for term in terms])
         modes, centres, reach = _modes(labels, vertices)
         slopes = np.vstack([(term.jacobian(vertices) @ modes).toarray() for term in terms])

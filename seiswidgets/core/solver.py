@@ -7,7 +7,7 @@ from scipy.sparse import tril, vstack
 
 from seiswidgets.core.cholesky import Cholesky, NotPositiveDefinite
 from seiswidgets.core.mesh import triangle_areas
-from seiswidgets.core.normal import NormalEquations
+from seiswidgets.core.normal_equations import NormalEquations
 from seiswidgets.core.terms import MOVING
 from seiswidgets.errors import Cancelled
 
@@ -58,7 +58,7 @@ def squared(left) -> float:
     return float(sum(np.vdot(residual, residual) for residual in left))
 
 
-def held_now(terms, vertices):
+def update_contacts(terms, vertices):
     """The terms, with the partners of the moving ones chosen anew."""
     return [term.at(vertices) if term.pattern == MOVING else term for term in terms]
 
@@ -108,7 +108,7 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     Cancelled
     """
     vertices, caution = np.array(start, float), Caution()
-    terms = held_now(terms, vertices)
+    terms = update_contacts(terms, vertices)
     equations = NormalEquations(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
     left = residuals(terms, vertices)
     energies, converged, iteration, idle = [squared(left)], False, 0, 0
@@ -121,7 +121,7 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
         moved, left, full = found
         move = _farthest(moved - vertices)
         vertices, iteration, before = moved, iteration + 1, terms
-        terms = held_now(terms, vertices)
+        terms = update_contacts(terms, vertices)
         left = [
             residual if term is old else term.residual(vertices)
             for term, old, residual in zip(terms, before, left, strict=True)
@@ -199,7 +199,7 @@ def fixed_point(terms, start, free, tolerance, max_iterations=1000, progress=Non
     Parameters and result are those of ``gauss_newton``; terms without ``rows`` (the area barrier) take no part.
     """
     vertices = np.array(start, float)
-    terms = held_now([term for term in terms if hasattr(term, "rows")], vertices)
+    terms = update_contacts([term for term in terms if hasattr(term, "rows")], vertices)
     matrix = vstack([term.rows for term in terms], format="csc")
     unknown, held = matrix[:, free], matrix[:, ~free] @ vertices[~free]
     factor = _normal_factor(unknown)
@@ -210,7 +210,7 @@ def fixed_point(terms, start, free, tolerance, max_iterations=1000, progress=Non
         moved[free] = factor.solve(unknown.T @ (targets - held))
         converged = _farthest(moved - vertices) <= tolerance
         vertices, iteration = moved, iteration + 1
-        terms = held_now(terms, vertices)
+        terms = update_contacts(terms, vertices)
         energies.append(energy(terms, vertices))
         _report(progress, iteration, energies[-1], vertices)
     return Solution(vertices, terms, iteration, 1, converged, tuple(energies))

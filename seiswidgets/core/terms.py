@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array, eye_array, kron
 
-from seiswidgets.core.meanvalue import mean_value_matrix
+from seiswidgets.core.mean_value import mean_value_matrix
 from seiswidgets.core.mesh import Mesh, triangle_areas
 
 # How a term's Jacobian changes from one place to the next

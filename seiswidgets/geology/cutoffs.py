@@ -7,14 +7,14 @@ import numpy as np
 from shapely import LineString
 
 from seiswidgets.errors import PickError
-from seiswidgets.geology.parts import EXTENSION, Part, parts, reached
 from seiswidgets.geology.picks import Fault, Horizon
+from seiswidgets.geology.segments import EXTENSION, HorizonSegment, horizon_segments, reached
 
 WALLS = {1: "hanging wall", -1: "footwall"}
 
 
 @dataclass(frozen=True)
-class CutOffs:
+class CutOffPair:
     """The two cut-offs of a horizon at a fault.
 
     Attributes
@@ -32,14 +32,14 @@ class CutOffs:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawing:
+class PickNetwork:
     """The lines of some faults and horizons, ready to be matched with each other.
 
     Attributes
     ----------
     faults : dict of str to LineString
         By name.
-    horizons : dict of str to list of Part
+    horizons : dict of str to list of HorizonSegment
     where : callable(point) -> str
         How errors name a place.
     unit : str
@@ -47,11 +47,11 @@ class Drawing:
     """
 
     faults: dict[str, LineString]
-    horizons: dict[str, list[Part]]
+    horizons: dict[str, list[HorizonSegment]]
     where: Callable[[tuple[float, float]], str]
     unit: str = " m"
 
-    def cutoffs(self) -> list[CutOffs]:
+    def cutoffs(self) -> list[CutOffPair]:
         """All pairs of cut-offs of the horizons at the faults.
 
         Raises
@@ -85,7 +85,7 @@ class Drawing:
                     f"{self._place(horizon, claims[1])}; keep one, or join them"
                 )
         if sides[1] and sides[-1]:
-            return CutOffs(fault, horizon, sides[1][0], sides[-1][0])
+            return CutOffPair(fault, horizon, sides[1][0], sides[-1][0])
         if sides[1] or sides[-1]:
             self._raise_one_sided(fault, horizon, sides)
         return None
@@ -139,8 +139,10 @@ class Drawing:
 
 def _cutoff_points(fault, horizon):
     line = LineString(fault.points)
-    found = parts([LineString(piece) for piece in horizon.pieces], [line])
-    (pair,) = Drawing({fault.name: line}, {horizon.name: found}, "x={0[0]:.6g}, z={0[1]:.6g}".format, unit="").cutoffs()
+    found = horizon_segments([LineString(piece) for piece in horizon.pieces], [line])
+    (pair,) = PickNetwork(
+        {fault.name: line}, {horizon.name: found}, "x={0[0]:.6g}, z={0[1]:.6g}".format, unit=""
+    ).cutoffs()
     return tuple(np.array(found[index].ends[place].point) for index, place in (pair.hanging_wall, pair.footwall))
 
 

@@ -12,13 +12,13 @@ from seiswidgets.core.mesh import Mesh, edge_keys
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
-from seiswidgets.geology.faultlines import merged
+from seiswidgets.geology.bed_length import length_change, stretched_bed
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_lines import merged
 from seiswidgets.geology.findings import Finding
-from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.report import BedReport
-from seiswidgets.geology.solving import Options, laid_before, solved, vertex_masses, warm_start
+from seiswidgets.geology.solve import Options, reusable_setup, solved, vertex_masses, warm_start
 from seiswidgets.geology.stage import Stage, staged
-from seiswidgets.geology.unfaulting import length_change
 
 JOINED = 0.5  # of the mesh spacing: ends of two pieces that lie closer are one place
 
@@ -32,13 +32,13 @@ class Bed:
     mesh : Mesh
     edges : array, shape (k, 2)
         Those of the horizon.
-    task : tuple
+    fingerprint : tuple
         What it was made for.
     """
 
     mesh: Mesh
     edges: np.ndarray
-    task: tuple
+    fingerprint: tuple
 
     @property
     def reach(self) -> float:
@@ -50,12 +50,12 @@ class Bed:
         return float(np.sqrt(len(self.edges)))
 
 
-def flattened(ground: Ground, name: str, pieces, datum: float | None, options: Options) -> Stage:
+def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None, options: Options) -> Stage:
     """The stage that makes a horizon level.
 
     Parameters
     ----------
-    ground : Ground
+    domain : RestorationDomain
     name : str
         The horizon's.
     pieces : list of LineString
@@ -65,47 +65,48 @@ def flattened(ground: Ground, name: str, pieces, datum: float | None, options: O
     options : Options
     """
     began = time.perf_counter()
-    task = ground.task({name: pieces})
-    laid = laid_before(options.start, task) or _bed(ground, name, pieces, task)
-    mesh, bed = laid.mesh, laid.edges
+    fingerprint = domain.fingerprint({name: pieces})
+    setup = reusable_setup(options.start, fingerprint) or _bed(domain, name, pieces, fingerprint)
+    mesh, bed = setup.mesh, setup.edges
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
-    level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten * laid.reach)
+    level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten * setup.reach)
     free = np.ones(len(mesh.vertices), bool)
-    terms = _terms(laid, level, options.weights)
+    terms = _terms(setup, level, options.weights)
     start = warm_start(mesh, free, options.start)
     start = mesh.vertices if start is None else start
-    solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where)
+    solution = solved(mesh, terms, start, free, domain.spacing, options, domain.where)
     vertices = solution.vertices.copy()
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=vertex_masses(mesh))
     vertices[:, 0] -= drift  # how far the whole moves sideways costs nothing: let it move least
     seconds = time.perf_counter() - began
-    achieved = partial(_achieved, name, laid, level, vertices, ground)
-    return staged("flatten", (name,), ground, mesh, vertices, solution, options.solver, seconds, laid, achieved)
+    achieved = partial(_achieved, name, setup, level, vertices, domain)
+    return staged("flatten", (name,), domain, mesh, vertices, solution, options.solver, seconds, setup, achieved)
 
 
-def _achieved(name, laid, level, vertices, ground):
+def _achieved(name, setup, level, vertices, domain):
     """What is reported of the horizon."""
     off = vertices[level.vertices, 1] - level.datum
-    flatness = float(np.sqrt(np.mean(off**2)) / ground.section.metres[1])
-    report = BedReport(name, length_change([laid.edges], laid.mesh.vertices, vertices), flatness)
-    findings = () if np.abs(off).max() <= ground.slack else (_still_uneven(name, off),)
-    return {"beds": (report,), "findings": findings}
+    flatness = float(np.sqrt(np.mean(off**2)) / domain.section.metres[1])
+    report = BedReport(name, length_change([setup.edges], setup.mesh.vertices, vertices), flatness)
+    uneven = () if np.abs(off).max() <= domain.slack else (_still_uneven(name, setup.mesh, level, off, domain),)
+    stretched = stretched_bed(name, [setup.edges], setup.mesh.vertices, vertices, domain)
+    return {"beds": (report,), "findings": (*uneven, *stretched)}
 
 
-def _bed(ground, name, pieces, task):
-    lines = _inside(joined(pieces, ground.spacing), ground, name)
-    mesh = ground.mesh(lines)
-    return Bed(mesh, np.concatenate([edges_along(mesh, line, ground.spacing) for line in lines]), task)
+def _bed(domain, name, pieces, fingerprint):
+    lines = _inside(joined(pieces, domain.spacing), domain, name)
+    mesh = domain.mesh(lines)
+    return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), fingerprint)
 
 
-def _terms(laid, level, weights):
-    mesh = laid.mesh
-    others = mesh.edges[~np.isin(edge_keys(mesh.edges), edge_keys(laid.edges))]
+def _terms(setup, level, weights):
+    mesh = setup.mesh
+    others = mesh.edges[~np.isin(edge_keys(mesh.edges), edge_keys(setup.edges))]
     return [
         MeanValue(mesh, weights.mean_value),
         ContourLaplacian(mesh, weights.contour),
         EdgeLength(mesh.vertices, others, weights.edge),
-        EdgeLength(mesh.vertices, laid.edges, weights.length * laid.reach, "bed length"),
+        EdgeLength(mesh.vertices, setup.edges, weights.length * setup.reach, "bed length"),
         level,
         AreaBarrier(mesh),
     ]
@@ -116,17 +117,21 @@ def _mean_level(ends):
     return float(np.average(ends[:, :, 1].mean(axis=1), weights=lengths))
 
 
-def _still_uneven(name, off):
-    text = f"horizon {name} is still up to {np.abs(off).max():.2g} m off its datum"
-    return Finding("problem", "datum", text, name)
+def _still_uneven(name, mesh, level, off, domain):
+    farthest = mesh.vertices[level.vertices[np.argmax(np.abs(off))]]
+    text = (
+        f"horizon {name} is still up to {np.abs(off).max() / domain.section.metres[1]:.2g} {domain.section.z_unit} off "
+        f"its datum near {domain.where(farthest)}; check how it is drawn there, or raise the weight flatten"
+    )
+    return Finding("problem", "datum", text, name, domain.position(farthest))
 
 
-def _inside(lines, ground, name):
-    pieces = [merged(shapely.get_coordinates(line), ground.spacing) for line in lines]
-    lines = [ground.simplified(LineString(points)) for points in pieces if len(points) > 1]
-    if not any(line.intersection(ground.outline).length > ground.spacing for line in lines):
+def _inside(lines, domain, name):
+    pieces = [merged(shapely.get_coordinates(line), domain.spacing) for line in lines]
+    lines = [domain.simplified(LineString(points)) for points in pieces if len(points) > 1]
+    if not any(line.intersection(domain.outline).length > domain.spacing for line in lines):
         raise PickError(
-            f"horizon {name!r} is no longer than the mesh spacing of {ground.spacing:.4g} m; draw more of it, or "
+            f"horizon {name!r} is no longer than the mesh spacing of {domain.spacing:.4g} m; draw more of it, or "
             "choose a finer spacing"
         )
     return lines

@@ -1,8 +1,8 @@
 """What a restoration is to do, as one value: its steps in order, the weights, the mesh; and how it is carried out.
 
-A quick look (``Task.coarse``) is the same restoration, but approximate: on a mesh three times as coarse, with lines
-that lose what is small beside its spacing, and in two iterations a step from the look before. Where lines are smooth it
-lies within a few metres of the full one, about one sample.
+A preview (``RestorationJob.coarse``) approximates the restoration: its mesh is three times as coarse, its lines are
+simplified to match, and each step takes two iterations from the preview before. Where lines are smooth it lies within a
+few metres of the full restoration, about one sample.
 """
 
 from collections.abc import Callable
@@ -13,11 +13,11 @@ import numpy as np
 
 from seiswidgets.core.triangulation import DENSITY
 from seiswidgets.errors import PickError, SettingError
-from seiswidgets.geology import asked
+from seiswidgets.geology import validation
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.solving import GAUSS_NEWTON, MOST_ITERATIONS
+from seiswidgets.geology.solve import GAUSS_NEWTON, MOST_ITERATIONS
 from seiswidgets.geology.weights import Weights
 
 UNFAULT, FLATTEN = "unfault", "flatten"
@@ -57,7 +57,7 @@ class Step:
             raise SettingError(f"a step must be {UNFAULT!r} or {FLATTEN!r}, but is {self.kind!r}")
         object.__setattr__(self, "picks", (self.picks,) if isinstance(self.picks, str) else tuple(self.picks))
         if self.datum is not None:
-            object.__setattr__(self, "datum", asked.number("datum", self.datum))
+            object.__setattr__(self, "datum", validation.finite_number("datum", self.datum))
 
 
 @dataclass(frozen=True)
@@ -117,11 +117,11 @@ class Plan:
         PickError, SettingError, FlippedError, Cancelled
             As for `Restoration.unfault`; PickError also if a step names a pick that is not there.
         """
-        return Task(section, interpretation, fixed, self).restored(progress=progress)
+        return RestorationJob(section, interpretation, fixed, self).restored(progress=progress)
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
+class RestorationJob:
     """A plan for the picks of one section, which knows what of an earlier task's result can be used again."""
 
     section: Section
@@ -137,11 +137,11 @@ class Task:
         return [step for step in self.plan.steps if step.on and (step.picks or there[step.kind])]
 
     @property
-    def coarse(self) -> "Task":
+    def coarse(self) -> "RestorationJob":
         """The same for a quick look from an earlier one: on a coarser mesh with simpler lines, in few iterations."""
-        ground = Restoration(self.section, self.plan.spacing).ground
-        few = np.sqrt(ground.outline.area * DENSITY / VERTICES)
-        spacing = max(ground.spacing, float(min(COARSE * ground.spacing, few, self._shortest / EDGES)))
+        domain = Restoration(self.section, self.plan.spacing).domain
+        few = np.sqrt(domain.outline.area * DENSITY / VERTICES)
+        spacing = max(domain.spacing, float(min(COARSE * domain.spacing, few, self._shortest / EDGES)))
         return replace(self, plan=replace(self.plan, spacing=spacing, max_iterations=QUICK), quick=True)
 
     @property
@@ -155,7 +155,7 @@ class Task:
 
     def restored(
         self,
-        earlier: tuple["Task", Restoration] | None = None,
+        earlier: tuple["RestorationJob", Restoration] | None = None,
         progress: Callable[[int, int, float], bool | None] | None = None,
     ) -> Restoration:
         """What the task comes to; stages of an earlier one are taken, or started from."""

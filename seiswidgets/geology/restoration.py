@@ -9,16 +9,15 @@ import shapely
 from shapely import LineString
 
 from seiswidgets.errors import PickError, SettingError
-from seiswidgets.geology import asked
-from seiswidgets.geology.carrying import carried_fault, carried_horizon, carried_point
+from seiswidgets.geology import validation
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flattened
-from seiswidgets.geology.ground import Ground
 from seiswidgets.geology.picks import Fault, Horizon
-from seiswidgets.geology.picture import picture
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.solving import GAUSS_NEWTON, Options
+from seiswidgets.geology.solve import GAUSS_NEWTON, Options
 from seiswidgets.geology.stage import Stage
-from seiswidgets.geology.strain import area_ratio_at
+from seiswidgets.geology.transfer import area_ratio_at, carried_fault, carried_horizon, carried_point, picture
 from seiswidgets.geology.unfaulting import unfaulted
 from seiswidgets.geology.weights import Weights
 
@@ -69,7 +68,7 @@ class Restoration:
                 f"a restoration starts from a seiswidgets.Section, but got a {type(self.original).__name__}"
             )
         if self.spacing is not None:
-            spacing = asked.number("spacing", self.spacing)
+            spacing = validation.finite_number("spacing", self.spacing)
             if spacing <= 0:
                 raise SettingError(f"spacing must be above 0 m, but is {spacing:g}")
             object.__setattr__(self, "spacing", spacing)
@@ -120,13 +119,16 @@ class Restoration:
             If ``progress`` returned False.
         """
         options = Options(weights or Weights(), solver, max_iterations, progress, start)
-        faults, horizons = asked.picks(faults, Fault, "fault"), asked.picks(horizons, Horizon, "horizon")
+        faults, horizons = (
+            validation.named_picks(faults, Fault, "fault"),
+            validation.named_picks(horizons, Horizon, "horizon"),
+        )
         if not faults:
             raise PickError("there is no fault to unfault; give at least one")
         held = None if fixed is None else carried_point(self.original, self.stages, fixed)
         fault_points = {name: carried_fault(self.original, self.stages, fault) for name, fault in faults.items()}
         pieces = {name: carried_horizon(self.original, self.stages, horizon) for name, horizon in horizons.items()}
-        stage = unfaulted(self.ground, fault_points, pieces, held, options)
+        stage = unfaulted(self.domain, fault_points, pieces, held, options)
         return replace(self, stages=(*self.stages, stage))
 
     def flatten(
@@ -156,35 +158,59 @@ class Restoration:
             As for ``unfault``.
         """
         options = Options(weights or Weights(), solver, max_iterations, progress, start)
-        (horizon,) = asked.picks([horizon], Horizon, "horizon").values()
+        (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
         if datum is not None:
-            datum = asked.number("datum", datum) * self.original.metres[1]
+            datum = validation.finite_number("datum", datum) * self.original.metres[1]
         pieces = carried_horizon(self.original, self.stages, horizon)
-        stage = flattened(self.ground, horizon.name, pieces, datum, options)
+        stage = flattened(self.domain, horizon.name, pieces, datum, options)
         return replace(self, stages=(*self.stages, stage))
 
     @cached_property
-    def ground(self) -> Ground:
+    def domain(self) -> RestorationDomain:
         """What the next stage will start from."""
         if not self.stages:
             x_min, x_max, z_min, z_max = self.original.extent
             corners = self.original.to_rock([(x_min, z_min), (x_max, z_max)])
-            return Ground(shapely.box(*corners.ravel()), self.original, self.spacing, self.quick)
-        return Ground(self.stages[-1].outline, self.original, self.spacing, self.quick)
+            return RestorationDomain(shapely.box(*corners.ravel()), self.original, self.spacing, self.quick)
+        return RestorationDomain(self.stages[-1].outline, self.original, self.spacing, self.quick)
 
     def to_restored(self, points) -> np.ndarray:
         """Where points of the original section lie after all stages, NaN outside; in its units, shape (n, 2)."""
-        points = self.original.to_rock(asked.points(points))
+        points = self.original.to_rock(validation.as_points(points))
         for stage in self.stages:
             points = stage.map.forward(points)
         return self.original.from_rock(points)
 
     def to_original(self, points) -> np.ndarray:
         """Where points of the restored section lie in the original one, NaN outside; in its units, shape (n, 2)."""
-        points = self.original.to_rock(asked.points(points))
+        points = self.original.to_rock(validation.as_points(points))
         for stage in reversed(self.stages):
             points = stage.map.inverse(points)
         return self.original.from_rock(points)
+
+    @property
+    def settled(self) -> bool:
+        """True if the solver settled in every stage."""
+        return all(stage.report.converged for stage in self.stages)
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """The findings of all stages, problems first; ``where`` is a place in the original section, or None."""
+        found = []
+        for number, stage in enumerate(self.stages):
+            before = replace(self, stages=self.stages[:number])
+            found += [replace(finding, where=before._origin(finding.where)) for finding in stage.report.findings]
+        return worst_first(found)
+
+    def _origin(self, where):
+        """The place in the original section of one in the restored section, or of one beside it; None outside."""
+        if where is None or not self.stages:
+            return where
+        step = 1e-3 * self.stages[-1].spacing / self.original.metres  # the border may be off by rounding
+        around = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)])
+        origins = self.to_original(where + step * around)
+        known = origins[np.isfinite(origins).all(axis=1)]
+        return tuple(map(float, known[0])) if len(known) else None
 
     @cached_property
     def section(self) -> Section:
@@ -211,7 +237,7 @@ class Restoration:
         SettingError
             If the order is neither, or there would be fewer than 2 x 2 cells.
         """
-        cells = None if cells is None else asked.whole("cells", cells, least=4)
+        cells = None if cells is None else validation.whole_number("cells", cells, least=4)
         if not self.stages and cells is None:
             return self.original
         return picture(self.original, self.stages, order, cells)
@@ -227,7 +253,7 @@ class Restoration:
         SettingError
             If the time is not between 0 and the number of stages.
         """
-        time, count = asked.number("time", time), len(self.stages)
+        time, count = validation.finite_number("time", time), len(self.stages)
         if not 0 <= time <= count:
             raise SettingError(f"time must be between 0 (today) and {count} (after the last stage), but is {time:g}")
         whole = int(time)
@@ -242,7 +268,7 @@ class Restoration:
         points : array, shape (n, 2)
             In the section's units; the result is of shape (n,).
         """
-        return area_ratio_at(self.stages, self.original.to_rock(asked.points(points)))
+        return area_ratio_at(self.stages, self.original.to_rock(validation.as_points(points)))
 
     @property
     def maps_to_restored(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:

@@ -12,12 +12,12 @@ from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.core.rigid import part_of_motion
-from seiswidgets.core.weld import outline
+from seiswidgets.core.seams import outline
+from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.ground import Ground
-from seiswidgets.geology.parts import parts, split_piece
 from seiswidgets.geology.report import Report
-from seiswidgets.geology.solving import vertex_masses
+from seiswidgets.geology.segments import horizon_segments, split_at_faults
+from seiswidgets.geology.solve import vertex_masses
 
 PERCENTS = (1, 50, 99)
 FINE, PLACES = 0.25, 64  # a line is carried at places a quarter of the spacing apart, and at so many at least
@@ -37,11 +37,11 @@ class Stage:
         Where the mesh's vertices are after it.
     faults : tuple of shapely LineString
         What the mesh is cut along, before the step.
-    ground : Ground
+    domain : RestorationDomain
         What the step started from.
     found : callable() -> Report
         Makes out what the solver reached; ``report`` adds what asks for the outline.
-    laid : Blocks or Bed
+    mesh_setup : Blocks or Bed
         The mesh before it was welded, and where the picks lie in it: a later stage of the same task takes it over.
     whole : Stage, optional
         The step that this is only a part of.
@@ -51,9 +51,9 @@ class Stage:
     mesh: Mesh
     vertices: np.ndarray
     faults: tuple[LineString, ...]
-    ground: Ground
+    domain: RestorationDomain
     found: Callable[[], Report]
-    laid: object
+    mesh_setup: object
     whole: "Stage | None" = None
 
     def __post_init__(self):
@@ -62,7 +62,7 @@ class Stage:
     @property
     def spacing(self) -> float:
         """Of the mesh, in metres."""
-        return self.ground.spacing
+        return self.domain.spacing
 
     @cached_property
     def report(self) -> Report:
@@ -75,16 +75,24 @@ class Stage:
         areas = triangle_areas(self.vertices, self.mesh.triangles)
         found = self.found()
         overlap, findings = max(0.0, float(areas.sum() - self.outline.area)), found.findings
-        if overlap > self.ground.slack * self.spacing:
-            text = f"{overlap:.3g} m² of rock lie on other rock{self._place_of_overlap()}"
-            findings = (*findings, Finding("problem", "overlap", text))
+        if overlap > self.domain.slack * self.spacing:
+            findings = (*findings, self._overlapping(overlap))
         return replace(found, overlap=overlap, findings=worst_first(findings))
 
-    def _place_of_overlap(self):
-        """Where a triangle lies whose centre another triangle holds as well."""
+    def _overlapping(self, area):
+        """The finding that rock lies on other rock, at the largest triangle whose centre another triangle holds too."""
         centres = self.vertices[self.mesh.triangles].mean(axis=1)
-        covered = self.map.target_finder(centres) != np.arange(len(centres))
-        return f", as near {self.ground.where(centres[covered][0])}" if covered.any() else ""
+        covered = np.flatnonzero(self.map.target_finder(centres) != np.arange(len(centres)))
+        words, where = "", None
+        if len(covered):
+            largest = self.mesh.triangles[covered[np.argmax(self.mesh.areas[covered])]]
+            place = self.mesh.vertices[largest].mean(axis=0)
+            words, where = f", such as the rock from near {self.domain.where(place)}", self.domain.position(place)
+        text = (
+            f"{area:.3g} m² of rock lie on other rock{words}: the picture shows only one of the two there. Check the "
+            "throws and the shape of the faults nearby, or undo the faults one after the other"
+        )
+        return Finding("problem", "overlap", text, where=where)
 
     def part(self, share: float) -> "Stage":
         """The step at a share of its way, from 0 to 1."""
@@ -114,14 +122,14 @@ class Stage:
 
     def carried_horizon(self, pieces) -> list[LineString]:
         """The pieces of a horizon as they lie after the step, drawn on to the faults they end at."""
-        return self._carried([part.line for part in parts(pieces, self.faults)], sideways=0.0)
+        return self._carried([part.line for part in horizon_segments(pieces, self.faults)], sideways=0.0)
 
     def carried_fault(self, line) -> list[LineString]:
         """A fault as it lies after the step, in order, parted where another fault crosses it.
 
         A fault that the mesh is cut along goes with one of its sides, the same from end to end.
         """
-        return self._carried([part.line for part in split_piece(line, self.faults)], sideways=1e-3 * self.spacing)
+        return self._carried([part.line for part in split_at_faults(line, self.faults)], sideways=1e-3 * self.spacing)
 
     def _carried(self, lines, sideways):
         carried = [self._moved(line, sideways) for line in lines]
@@ -139,7 +147,7 @@ class Stage:
         return LineString(moved) if len(moved) > 1 else None
 
 
-def staged(kind, picks, ground, mesh, vertices, solution, solver, seconds, laid, achieved, faults=()) -> Stage:
+def staged(kind, picks, domain, mesh, vertices, solution, solver, seconds, mesh_setup, achieved, faults=()) -> Stage:
     """The stage that a solution makes.
 
     Parameters
@@ -147,11 +155,11 @@ def staged(kind, picks, ground, mesh, vertices, solution, solver, seconds, laid,
     achieved : callable() -> dict
         What the report says of cut-offs, seams and beds, and which constraints gave way.
     """
-    found = partial(_found, kind, picks, ground, mesh, vertices, solution, solver, seconds, achieved)
-    return Stage(kind, mesh, vertices, faults, ground, found, laid)
+    found = partial(_found, kind, picks, domain, mesh, vertices, solution, solver, seconds, achieved)
+    return Stage(kind, mesh, vertices, faults, domain, found, mesh_setup)
 
 
-def _found(kind, picks, ground, mesh, vertices, solution, solver, seconds, achieved):
+def _found(kind, picks, domain, mesh, vertices, solution, solver, seconds, achieved):
     ratio = deformation.area_ratio(mesh, vertices)
     percentiles = deformation.weighted_percentiles(ratio, mesh.areas, PERCENTS)
     return Report(
@@ -167,10 +175,24 @@ def _found(kind, picks, ground, mesh, vertices, solution, solver, seconds, achie
         energy=_energy(solution),
         flipped=int(np.sum(ratio <= 0)),
         area_ratio=dict(zip(PERCENTS, percentiles.tolist(), strict=True)),
-        x_unit=ground.section.x_unit,
-        z_unit=ground.section.z_unit,
-        **achieved(),
+        x_unit=domain.section.x_unit,
+        z_unit=domain.section.z_unit,
+        **_with_settling(achieved(), picks, domain, mesh, ratio, solution),
     )
+
+
+def _with_settling(achieved, picks, domain, mesh, ratio, solution):
+    """What was achieved, with a finding if the solver did not settle."""
+    if solution.converged:
+        return achieved
+    place = mesh.vertices[mesh.triangles[np.argmax(np.abs(np.log(ratio)))]].mean(axis=0)
+    text = (
+        f"the solver did not settle in {solution.iterations} iterations, so this is not yet the best fit to the picks. "
+        f"Allow more (max_iterations), or check the picks near {domain.where(place)}, where the rock is deformed most: "
+        "horizons that contradict each other, or a fault that ends too early"
+    )
+    finding = Finding("problem", "unsettled", text, picks[0] if len(picks) == 1 else None, domain.position(place))
+    return {**achieved, "findings": (finding, *achieved["findings"])}
 
 
 def _energy(solution):

@@ -12,7 +12,7 @@ import shapely
 from scipy.ndimage import gaussian_filter
 
 from seiswidgets.errors import SettingError
-from seiswidgets.geology.history import (
+from seiswidgets.geology.kinematics import (
     STILL,
     BlindSlip,
     Circular,

@@ -9,24 +9,23 @@ import numpy as np
 from shapely import LineString
 
 from seiswidgets.core.contact import Contact, contacts
-from seiswidgets.core.finder import triangle_at
 from seiswidgets.core.mesh import Cut, Mesh, edge_keys
+from seiswidgets.core.point_location import triangle_at
 from seiswidgets.core.rigid import rigid_blocks
+from seiswidgets.core.seams import welded
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along
-from seiswidgets.core.weld import welded
 from seiswidgets.errors import PickError
-from seiswidgets.geology.cutoffs import CutOffs, Drawing
-from seiswidgets.geology.faultlines import CLOSE, EDGES, crossings, fault_lines, passing_through, with_points
-from seiswidgets.geology.findings import Finding
-from seiswidgets.geology.ground import Ground
-from seiswidgets.geology.parts import parts
-from seiswidgets.geology.report import BedReport, CutOffReport, SeamReport
-from seiswidgets.geology.solving import (
+from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_lines import CLOSE, EDGES, crossings, fault_lines, passing_through, with_points
+from seiswidgets.geology.segments import horizon_segments
+from seiswidgets.geology.slip_report import slip_report
+from seiswidgets.geology.solve import (
     GAUSS_NEWTON,
     Options,
-    laid_before,
     nearest_rigid,
+    reusable_setup,
     solved,
     vertex_masses,
     warm_start,
@@ -43,23 +42,23 @@ class Blocks:
     cut : Cut
     sides : dict of str to array, shape (2, s, 2)
         Both copies of each fault's edges.
-    drawing : Drawing
-    cutoffs : list of CutOffs
+    network : PickNetwork
+    cutoffs : list of CutOffPair
     stitches : array, shape (c, 2)
         For each of the cut-offs its vertex in the hanging wall and in the footwall.
     beds : dict of str to list of array, shape (k, 2)
         The edges of each part of each horizon.
-    task : tuple
+    fingerprint : tuple
         What they were made for.
     """
 
     cut: Cut
     sides: dict[str, np.ndarray]
-    drawing: Drawing
-    cutoffs: list[CutOffs]
+    network: PickNetwork
+    cutoffs: list[CutOffPair]
     stitches: np.ndarray
     beds: dict[str, list[np.ndarray]]
-    task: tuple
+    fingerprint: tuple
 
     @property
     def mesh(self) -> Mesh:
@@ -75,13 +74,19 @@ class Blocks:
         """
         return float(np.sqrt(np.mean([sides.shape[1] for sides in self.sides.values()])))
 
+    def slips(self) -> dict[str, np.ndarray]:
+        """For each fault the points between its pairs of cut-offs, and the distance of each pair, in metres."""
+        ends = self.mesh.vertices[self.stitches]
+        rows = np.column_stack([ends.mean(axis=1), np.hypot(*(ends[:, 0] - ends[:, 1]).T)])
+        return {name: rows[[pair.fault == name for pair in self.cutoffs]] for name in self.network.faults}
 
-def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Options) -> Stage:
+
+def unfaulted(domain: RestorationDomain, faults: dict, horizons: dict, fixed, options: Options) -> Stage:
     """The stage that undoes the slip on some faults.
 
     Parameters
     ----------
-    ground : Ground
+    domain : RestorationDomain
     faults : dict of str to array, shape (n, 2)
     horizons : dict of str to list of LineString
     fixed : array, shape (2,), or None
@@ -89,94 +94,84 @@ def unfaulted(ground: Ground, faults: dict, horizons: dict, fixed, options: Opti
     options : Options
     """
     began = time.perf_counter()
-    task = ground.task({name: [LineString(points)] for name, points in faults.items()}, horizons)
-    blocks = laid_before(options.start, task) or _blocks(ground, faults, horizons, task)
-    mesh, free = blocks.mesh, _free(blocks.mesh, fixed, ground)
+    fingerprint = domain.fingerprint({name: [LineString(points)] for name, points in faults.items()}, horizons)
+    blocks = reusable_setup(options.start, fingerprint) or _blocks(domain, faults, horizons, fingerprint)
+    mesh, free = blocks.mesh, _free(blocks.mesh, fixed, domain)
     terms = _terms(blocks, options.weights)
     start = warm_start(mesh, free, options.start)
     if start is None:
         slid = options.solver == GAUSS_NEWTON
         start = _slid_together(mesh, blocks.stitches, free, terms) if slid else mesh.vertices  # the paper's own start
     adrift = bool(free.all())
-    solution = solved(mesh, terms, start, free, ground.spacing, options, ground.where, adrift)
+    solution = solved(mesh, terms, start, free, domain.spacing, options, domain.where, adrift)
     vertices = solution.vertices
     if adrift:
         vertices = nearest_rigid(mesh.vertices, vertices, vertex_masses(mesh))
     whole, vertices = welded(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
-    seconds, achieved = time.perf_counter() - began, partial(_achieved, blocks, solution, ground)
-    picks, lines = tuple(blocks.drawing.faults), tuple(blocks.drawing.faults.values())
-    return staged("unfault", picks, ground, whole, vertices, solution, options.solver, seconds, blocks, achieved, lines)
+    seconds, achieved = time.perf_counter() - began, partial(slip_report, blocks, solution, domain)
+    picks, lines = tuple(blocks.network.faults), tuple(blocks.network.faults.values())
+    return staged("unfault", picks, domain, whole, vertices, solution, options.solver, seconds, blocks, achieved, lines)
 
 
-def _achieved(blocks, solution, ground):
-    """What is reported of seams, cut-offs and beds."""
-    seams, gave_way = _seams(blocks, solution, ground)
-    cutoffs, apart = _cutoffs(blocks, solution.vertices, ground)
-    beds = tuple(
-        BedReport(name, length_change(edges, blocks.mesh.vertices, solution.vertices))
-        for name, edges in blocks.beds.items()
-    )
-    return {"seams": seams, "cutoffs": cutoffs, "beds": beds, "findings": (*apart, *gave_way)}
-
-
-def _blocks(ground, faults, horizons, task):
-    drawing = _drawing(fault_lines(faults, ground), horizons, ground)
-    cutoffs = drawing.cutoffs()
-    lines = {name: _meshed_line(name, line, drawing, ground) for name, line in drawing.faults.items()}
-    beds = {name: [ground.simplified(part.line) for part in horizon] for name, horizon in drawing.horizons.items()}
-    whole = ground.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
-    edges = {name: _inner_edges(whole, line, name, ground) for name, line in lines.items()}
+def _blocks(domain, faults, horizons, fingerprint):
+    network = _network(fault_lines(faults, domain), horizons, domain)
+    cutoffs = network.cutoffs()
+    lines = {name: _meshed_line(name, line, network, domain) for name, line in network.faults.items()}
+    beds = {name: [domain.simplified(part.line) for part in horizon] for name, horizon in network.horizons.items()}
+    whole = domain.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
+    edges = {name: _inner_edges(whole, line, name, domain) for name, line in lines.items()}
     slipped = np.concatenate(list(edges.values()))
     cut = whole.cut(slipped)
     beds = {
-        name: [cut.along(edges_along(whole, line, ground.spacing, without=slipped)) for line in bed]
+        name: [cut.along(edges_along(whole, line, domain.spacing, without=slipped)) for line in bed]
         for name, bed in beds.items()
     }
     sides = {name: cut.sides(along) for name, along in edges.items()}
-    _check_meshed(cutoffs, beds, drawing, ground)
-    return Blocks(cut, sides, drawing, cutoffs, _stitches(cutoffs, beds), beds, task)
+    _check_meshed(cutoffs, beds, network, domain)
+    return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, fingerprint)
 
 
-def _drawing(drawn, horizons, ground):
+def _network(drawn, horizons, domain):
     """Faults and horizons matched with each other, the faults without drawn points that lie close to a cut-off."""
-    drawing = _matched(drawn, horizons, ground)
+    network = _matched(drawn, horizons, domain)
     settled = {
-        name: passing_through(line, drawing.ends_at(name), crossings(name, drawn), CLOSE * ground.spacing)
+        name: passing_through(line, network.ends_at(name), crossings(name, drawn), CLOSE * domain.spacing)
         for name, line in drawn.items()
     }
-    return drawing if settled == drawn else _matched(settled, horizons, ground)
+    return network if settled == drawn else _matched(settled, horizons, domain)
 
 
-def _matched(drawn, horizons, ground):
+def _matched(drawn, horizons, domain):
     faults = list(drawn.values())
-    return Drawing(drawn, {name: parts(pieces, faults) for name, pieces in horizons.items()}, ground.where)
+    segments = {name: horizon_segments(pieces, faults) for name, pieces in horizons.items()}
+    return PickNetwork(drawn, segments, domain.where)
 
 
-def _meshed_line(name, line, drawing, ground):
+def _meshed_line(name, line, network, domain):
     """A fault with its cut-offs among its points, in edges short enough to slip along."""
-    line = with_points(line, drawing.ends_at(name))
-    return line.segmentize(min(ground.spacing, line.length / EDGES))
+    line = with_points(line, network.ends_at(name))
+    return line.segmentize(min(domain.spacing, line.length / EDGES))
 
 
-def _inner_edges(mesh, line, name, ground):
-    along = edges_along(mesh, line, ground.spacing)
+def _inner_edges(mesh, line, name, domain):
+    along = edges_along(mesh, line, domain.spacing)
     inner = ~np.isin(edge_keys(along), edge_keys(mesh.boundary))
     if not inner.any():
         raise PickError(
-            f"fault {name!r} runs along the border of the section near {ground.where(line.coords[0])}, where there is "
+            f"fault {name!r} runs along the border of the section near {domain.where(line.coords[0])}, where there is "
             "nothing to slide; draw it inside"
         )
     return along[inner]
 
 
-def _check_meshed(cutoffs, beds, drawing, ground):
+def _check_meshed(cutoffs, beds, network, domain):
     for pair in cutoffs:
         for index, place in (pair.hanging_wall, pair.footwall):
-            part = drawing.horizons[pair.horizon][index]
+            part = network.horizons[pair.horizon][index]
             if not len(beds[pair.horizon][index]):
                 raise PickError(
                     f"piece {part.number} of horizon {pair.horizon!r} is only {part.line.length:.2g} m long at fault "
-                    f"{pair.fault!r}, near {ground.where(part.ends[place].point)}; draw more of it, or choose a finer "
+                    f"{pair.fault!r}, near {domain.where(part.ends[place].point)}; draw more of it, or choose a finer "
                     "spacing"
                 )
 
@@ -190,13 +185,13 @@ def _stitches(cutoffs, beds):
     return np.array(ends, dtype=int)
 
 
-def _free(mesh, fixed, ground):
+def _free(mesh, fixed, domain):
     """Which vertices may move: all, or all but those of the block that holds a point."""
     if fixed is None:
         return np.ones(len(mesh.vertices), bool)
     triangle = triangle_at(mesh.vertices, mesh.triangles, fixed)
     if triangle < 0:
-        raise PickError(f"no rock lies at fixed, {ground.where(fixed)}; choose a point inside the block to hold")
+        raise PickError(f"no rock lies at fixed, {domain.where(fixed)}; choose a point inside the block to hold")
     if mesh.blocks.max() == 0:
         raise PickError(
             "fixed is given, but the faults cut no block off: all of them end inside the section; leave fixed out"
@@ -215,7 +210,7 @@ def _terms(blocks, weights):
         *(
             term
             for name, sides in blocks.sides.items()
-            for term in contacts(mesh, sides, blocks.drawing.faults[name], weights.slide, "contact")
+            for term in contacts(mesh, sides, blocks.network.faults[name], weights.slide, "contact")
         ),
         AreaBarrier(mesh),
     ]
@@ -246,43 +241,3 @@ def _slid_together(mesh, stitches, free, terms):
 def _still_side_last(sides, free):
     """The two sides of a seam, first the one whose vertices may be laid on the other."""
     return (sides[1], sides[0]) if not free[sides[0]].all() else (sides[0], sides[1])
-
-
-def _seams(blocks, solution, ground):
-    """Gap and overlap along each fault, and in words where they are wider than the slack."""
-    seams, gave_way = [], []
-    held = [term for term in solution.terms if isinstance(term, Contact)]
-    for name, pair in zip(blocks.sides, zip(held[::2], held[1::2], strict=True), strict=True):
-        gap = overlap = widest = 0.0
-        for term, outwards in zip(pair, (1, -1), strict=True):
-            distances, lengths = outwards * term.distances(solution.vertices), term.lengths(blocks.mesh.vertices)
-            gap += 0.5 * float(lengths @ np.maximum(distances, 0))
-            overlap += 0.5 * float(lengths @ np.maximum(-distances, 0))
-            widest = max(widest, float(np.max(np.abs(distances), initial=0)))
-        seams.append(SeamReport(name, gap, overlap, widest))
-        if widest > ground.slack:
-            text = f"the sides of fault {name} are up to {widest:.2g} m apart or overlapping"
-            gave_way.append(Finding("warning", "contact", text, name))
-    return tuple(seams), gave_way
-
-
-def _cutoffs(blocks, vertices, ground):
-    """Throw, heave and what is left between each pair of cut-offs, and in words where that is more than the slack."""
-    reports, apart = [], []
-    for pair, (hanging_wall, footwall) in zip(blocks.cutoffs, blocks.stitches, strict=True):
-        before = ground.section.from_rock(blocks.mesh.vertices[[hanging_wall, footwall]])
-        top, bottom = sorted((blocks.drawing.faults[pair.fault].coords[k] for k in (0, -1)), key=lambda end: end[1])
-        misfit = float(np.hypot(*(vertices[hanging_wall] - vertices[footwall])))
-        heave = (before[0, 0] - before[1, 0]) * (1 if bottom[0] >= top[0] else -1)
-        reports.append(CutOffReport(pair.fault, pair.horizon, float(before[0, 1] - before[1, 1]), float(heave), misfit))
-        if misfit > ground.slack:
-            text = f"horizon {pair.horizon} at fault {pair.fault}: its cut-offs are still {misfit:.2g} m apart"
-            where = tuple(map(float, before[0]))
-            apart.append(Finding("problem", "cut-off", text, pair.horizon, where))
-    return tuple(reports), apart
-
-
-def length_change(edges, before, after) -> float:
-    """Change of the length of some polylines, as a share of it."""
-    lengths = [sum(np.hypot(*(at[line[:, 1]] - at[line[:, 0]]).T).sum() for line in edges) for at in (before, after)]
-    return float(lengths[1] / lengths[0] - 1)

@@ -6,13 +6,13 @@ from os import PathLike
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
-from seiswidgets.io.choices import Choices, Progress, tell
+from seiswidgets.io.files import existing_file
 from seiswidgets.io.info import SectionInfo
-from seiswidgets.io.matrices import open_array, open_text, preview_array, preview_text
-from seiswidgets.io.paths import existing_file
-from seiswidgets.io.pictures import open_picture, preview_picture
-from seiswidgets.io.segy import open_segy, preview_segy
-from seiswidgets.io.segylayout import begins_like_segy
+from seiswidgets.io.options import OpenOptions, Progress, tell
+from seiswidgets.io.rasters.arrays import open_array, open_text, preview_array, preview_text
+from seiswidgets.io.rasters.images import open_picture, preview_picture
+from seiswidgets.io.segy.layout import begins_like_segy
+from seiswidgets.io.segy.reading import open_segy, preview_segy
 
 READERS = {
     "SEG-Y": (open_segy, preview_segy),
@@ -100,7 +100,7 @@ def open_section(
         If ``progress`` returned False.
     """
     path = existing_file(path)
-    choices = Choices(
+    choices = OpenOptions(
         dx=dx,
         dz=dz,
         x0=x0,
@@ -140,7 +140,7 @@ def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = No
     path = existing_file(path)
     with _readable(path):
         _, preview_it = READERS[_kind(path)]
-        return preview_it(path, Choices(header_bytes=header_bytes))
+        return preview_it(path, OpenOptions(header_bytes=header_bytes))
 
 
 def kind_of(path: str | PathLike) -> str:

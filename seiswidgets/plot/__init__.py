@@ -16,5 +16,5 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submod_attrs={"figures": ["deformation", "workflow"], "pictures": ["mesh", "restoration", "section"]},
+    submod_attrs={"figures": ["deformation", "workflow"], "panels": ["mesh", "restoration", "section"]},
 )

@@ -7,12 +7,11 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from seiswidgets.core.deformation import area_ratio_histogram, colour_span, weighted_percentiles
+from seiswidgets.core.deformation import AREA_RATIO_COLOURS, area_ratio_histogram, colour_span, weighted_percentiles
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.plot.frame import WIDTH, Window, framed
-from seiswidgets.plot.palette import AREA_RATIO
-from seiswidgets.plot.pictures import (
+from seiswidgets.plot.panels import (
     DONE,
     amplitude_limit,
     carried,
@@ -135,7 +134,7 @@ def _draw_deformation(ax, histogram, restored, interpretation, frame, span):
     percentiles = weighted_percentiles(stage.area_ratio, stage.mesh.areas, (1, 50, 99))
     span = colour_span(stage.area_ratio, stage.mesh.areas) if span is None else span
     bins, shares = area_ratio_histogram(stage.area_ratio, stage.mesh.areas, span=span)
-    colours = ScalarMappable(LogNorm(1 / span, span), AREA_RATIO)
+    colours = ScalarMappable(LogNorm(1 / span, span), AREA_RATIO_COLOURS)
     _draw_map(ax, restored, interpretation, colours)
     frame.put_on(ax, f"deformation by {DONE[stage.kind]}")
     _draw_histogram(histogram, bins, shares, colours)

@@ -20,7 +20,7 @@ Window = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
-class Frame:
+class PlotFrame:
     """The part of a section that is shown, ``(x_min, x_max, z_min, z_max)``, and its vertical exaggeration."""
 
     section: Section
@@ -74,19 +74,19 @@ class Frame:
         figure.supxlabel(self.footnote(), x=0.01, **FOOTNOTE)
 
 
-def framed(section: Section, shown: Sequence[Section], exaggeration: float | None, window: Window | None) -> Frame:
+def framed(section: Section, shown: Sequence[Section], exaggeration: float | None, window: Window | None) -> PlotFrame:
     """The frame that holds all of some sections, or a window, with an exaggeration that suits the original's part."""
     if window is not None:
         window = _checked_window(window)
     if exaggeration is None:
-        true = Frame(section, window or edges(section), 1.0).shape
+        true = PlotFrame(section, window or edges(section), 1.0).shape
         exaggeration = max((e for e in EXAGGERATIONS if e * true <= TALLEST), default=1)
     elif not (np.isfinite(exaggeration) and exaggeration > 0):
         raise SettingError(f"exaggeration must be above 0, and 1 for true proportions, but is {exaggeration!r}")
     if window is None:
         x_min, x_max, z_min, z_max = np.transpose([edges(one) for one in shown])
         window = x_min.min(), x_max.max(), z_min.min(), z_max.max()
-    return Frame(section, window, exaggeration)
+    return PlotFrame(section, window, exaggeration)
 
 
 def edges(section: Section) -> Window:

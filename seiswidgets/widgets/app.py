@@ -8,28 +8,28 @@ from traitlets import Any, Bool, Instance, Tuple, link, observe, validate
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.geology.plan import Plan, Task
+from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.validation import checked_kind
 from seiswidgets.geology.weights import Weights
-from seiswidgets.io.arguments import checked_kind
-from seiswidgets.io.sources import SectionSource
-from seiswidgets.widgets.files.sessionbar import SessionBar
+from seiswidgets.io.session.sources import SectionSource
+from seiswidgets.widgets.files.session_bar import SessionBar
 from seiswidgets.widgets.files.tabbed import Tabbed
 from seiswidgets.widgets.files.turning import Turning
+from seiswidgets.widgets.histogram import DeformationHistogram
+from seiswidgets.widgets.linked_panes import LinkedPanes
 from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.order import keep_order
-from seiswidgets.widgets.picking.picker import Picker
-from seiswidgets.widgets.restoring.controls import SolverControls
-from seiswidgets.widgets.restoring.frame import Frame
-from seiswidgets.widgets.restoring.histogram import DeformationHistogram
-from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
-from seiswidgets.widgets.restoring.moments import Moments
-from seiswidgets.widgets.restoring.reports import Reports
-from seiswidgets.widgets.restoring.restorer import REST, Restorer
-from seiswidgets.widgets.restoring.statusbar import StatusBar
-from seiswidgets.widgets.restoring.timeline import Timeline
+from seiswidgets.widgets.panels.controls import SolverControls
+from seiswidgets.widgets.panels.reports import Reports
+from seiswidgets.widgets.picker import Picker
+from seiswidgets.widgets.restorer import REST, Restorer
+from seiswidgets.widgets.snapshot import Snapshot
+from seiswidgets.widgets.status_bar import StatusBar
+from seiswidgets.widgets.timeline import Timeline
+from seiswidgets.widgets.timeline_player import TimelinePlayer
 
 FIRST = "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
 THEN = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
@@ -110,7 +110,7 @@ class RestorationApp(Tabbed, Turning, VBox):
         self.source = source
         self._make_parts(section, picks, height)
         self._restorer = Restorer(self._draw, self.status.tell, self._fail)
-        self._moments = Moments(self.panes, self.picker.redraw)
+        self._player = TimelinePlayer(self.panes, self.picker.redraw)
         super().__init__(self._placed(), **picks, **settings)
         self.add_class("seiswidgets-app")
         keep_order(self)
@@ -137,14 +137,14 @@ class RestorationApp(Tabbed, Turning, VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all that is under way is done, as a script may want; False if that took too long."""
-        return all(part.wait(timeout) for part in (*self._made_files, self.keeper, self._restorer, self._moments))
+        return all(part.wait(timeout) for part in (*self._made_files, self.keeper, self._restorer, self._player))
 
     def close(self) -> None:
         """Stop what is under way, save what is not saved yet, and take the app off the screen."""
         if self.comm is None:  # closed before, or never made
             return
         self._restorer.cancel()
-        self._moments.cancel()
+        self._player.cancel()
         for panel in self._made_files:
             panel.end()
         try:
@@ -155,7 +155,7 @@ class RestorationApp(Tabbed, Turning, VBox):
     def _make_parts(self, section, picks, height):
         self.panes = LinkedPanes(section, height=height, deformation=0.5)
         self.picker = Picker(self.panes.original, **picks)
-        self.picker.attach(self.panes.restored, self.panes.sight)
+        self.picker.attach(self.panes.restored, self.panes.projection)
         self.histogram = DeformationHistogram()
         self.solving = SolverControls(section)
         self.timeline = Timeline()
@@ -179,11 +179,11 @@ class RestorationApp(Tabbed, Turning, VBox):
         link((self.histogram, "brush"), (self.panes, "brush"))
         self.solving.observe(self._take_change, ("spacing", "solver"))
         self.picker.observe(self._take_rest, "dragging")
-        self.timeline.observe(lambda change: self._moments.show(self.restoration, change.new), "time")
+        self.timeline.observe(lambda change: self._player.show(self.restoration, change.new), "time")
         self.panes.on_reading(self._mark)
 
     def _task(self):
-        return Task(self.section, self.interpretation, self.fixed, self.plan)
+        return RestorationJob(self.section, self.interpretation, self.fixed, self.plan)
 
     @observe("interpretation", "fixed", "weights", "steps", "live")
     def _take_change(self, change):
@@ -205,7 +205,7 @@ class RestorationApp(Tabbed, Turning, VBox):
             self.status.hint(CHANGED)
             return
         if self.restoration.stages:
-            self._restorer.glance(self._task())
+            self._restorer.preview(self._task())
         self._restorer.restore(self._task(), REST if self.restoration.stages else 0.0)
 
     def _is_possible(self):
@@ -216,13 +216,13 @@ class RestorationApp(Tabbed, Turning, VBox):
             return True
         self._restorer.cancel()
         restoration = Restoration(self.section)
-        self._draw(Frame.of(restoration), restoration)
+        self._draw(Snapshot.of(restoration), restoration)
         self.status.hint(THEN if waits else FIRST)
         return False
 
     def _draw(self, frame, restoration):
         """Draw a restoration; without it a frame is but a quick look."""
-        self._moments.cancel()
+        self._player.cancel()
         if restoration is None:
             self.panes.show(frame)
         else:
@@ -246,7 +246,7 @@ class RestorationApp(Tabbed, Turning, VBox):
         if not self._ready or self.panes.restoration is change.new:
             return
         self._restorer.cancel()
-        self._draw(Frame.of(change.new), change.new)
+        self._draw(Snapshot.of(change.new), change.new)
 
     @validate("restoration")
     def _valid_restoration(self, proposal):

@@ -3,9 +3,9 @@ import pytest
 import shapely
 from scipy.spatial import Delaunay
 
-from seiswidgets.core.finder import TriangleFinder, triangle_at
 from seiswidgets.core.mapping import PiecewiseAffineMap, triangles_at_grid
 from seiswidgets.core.mesh import triangle_areas
+from seiswidgets.core.point_location import TriangleFinder, triangle_at
 from seiswidgets.core.resampling import resampled
 from seiswidgets.core.triangulation import edges_along, triangulate
 

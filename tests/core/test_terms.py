@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from seiswidgets.core.contact import contacts
-from seiswidgets.core.solver import held_now
+from seiswidgets.core.solver import update_contacts
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue, Stitch
 from tests.core.derivatives import check_jacobian
 from tests.core.meshes import PLANAR, arc, cut_along, rotated
@@ -37,7 +37,7 @@ PAPER = [name for name in NAMES if name != "area barrier"]
 def case(line, name, weight=1.5):
     """A term, with its partners at rest chosen, and the vertices at rest."""
     term, rest = terms_on(line, weight)[name], CUTS[line][0].mesh.vertices
-    return held_now([term], rest)[0], rest
+    return update_contacts([term], rest)[0], rest
 
 
 @pytest.fixture(params=LINES)
@@ -59,7 +59,7 @@ def test_jacobian_is_the_derivative(line, name, size):
     term, rest = case(line, name)
     rng = np.random.default_rng(7)
     vertices = perturbed(rest, rng, size)
-    check_jacobian(held_now([term], vertices)[0], vertices, rng)
+    check_jacobian(update_contacts([term], vertices)[0], vertices, rng)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -104,7 +104,7 @@ def test_the_weight_multiplies_the_rows(line, name):
 def test_rows_and_targets_of_the_fixed_point_have_the_same_energy(line, name, size):
     term, rest = case(line, name)
     vertices = perturbed(rest, np.random.default_rng(2), size)
-    term = held_now([term], vertices)[0]
+    term = update_contacts([term], vertices)[0]
     lagged = np.sum((term.rows @ vertices - term.target(vertices)) ** 2)
     assert lagged == pytest.approx(energy(term, vertices), rel=1e-9, abs=1e-15)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from seiswidgets.geology.solving import nearest_rigid
+from seiswidgets.geology.solve import nearest_rigid
 
 
 def spacing_for(section, count):

@@ -1,4 +1,4 @@
-"""Cut-offs, throw and heave are those of the drawing, however unsteadily it was drawn."""
+"""Cut-offs, throw and heave are those of the network, however unsteadily it was drawn."""
 
 import itertools
 
@@ -7,8 +7,8 @@ import pytest
 from shapely import LineString
 
 import seiswidgets as sw
-from seiswidgets.geology.cutoffs import Drawing
-from seiswidgets.geology.parts import hanging_side, parts, split_piece
+from seiswidgets.geology.cutoffs import PickNetwork
+from seiswidgets.geology.segments import hanging_side, horizon_segments, split_at_faults
 
 TOP, DIP = (1000.0, 0.0), 60.0  # a fault that dips to the right
 ALONG = np.array([np.cos(np.radians(DIP)), np.sin(np.radians(DIP))])
@@ -94,7 +94,9 @@ def test_a_piece_across_a_fault_has_not_slipped(mirrored):
     across = sw.Horizon(seen([(0, 400), (WIDTH, 450)], mirrored))
     assert sw.throw(fault(mirrored), across) == pytest.approx(0, abs=1e-9)
     assert sw.heave(fault(mirrored), across) == pytest.approx(0, abs=1e-9)
-    assert len(parts([LineString(piece) for piece in across.pieces], [LineString(fault(mirrored).points)])) == 2
+    assert (
+        len(horizon_segments([LineString(piece) for piece in across.pieces], [LineString(fault(mirrored).points)])) == 2
+    )
 
 
 @pytest.mark.parametrize("z_unit", ["m", "ms"])
@@ -128,10 +130,10 @@ def test_a_fault_that_is_overturned_in_part_keeps_its_hanging_wall(turn):
     assert sw.throw(sw.Fault(line), high) == pytest.approx(100, abs=1)
 
 
-def drawing(faults, *pieces):
+def network(faults, *pieces):
     faults = {name: LineString(line) for name, line in faults.items()}
     lines = [LineString(piece) for piece in pieces]
-    return Drawing(faults, {"H": parts(lines, list(faults.values()))}, str)
+    return PickNetwork(faults, {"H": horizon_segments(lines, list(faults.values()))}, str)
 
 
 GRABEN = {"left": [(800, 0), (1200, 1000)], "right": [(2200, 0), (1800, 1000)]}
@@ -142,7 +144,7 @@ BEDS = [[(0, 400), (960, 400)], [(1000, 500), (2000, 500)], [(2040, 400), (3000,
 @pytest.mark.parametrize("middle", [(1000, 2000), (1050, 1950), (990, 2010)], ids=["exact", "short", "over"])
 def test_the_middle_of_a_graben_serves_both_faults(order, middle):
     pieces = [BEDS[0], [(x, 500) for x in middle], BEDS[2]]
-    found = drawing(GRABEN, *(pieces[index] for index in order))
+    found = network(GRABEN, *(pieces[index] for index in order))
     pairs = {pair.fault: pair for pair in found.cutoffs()}
     assert set(pairs) == {"left", "right"}
     for name, places in {"left": [(1000, 500), (960, 400)], "right": [(2000, 500), (2040, 400)]}.items():
@@ -155,7 +157,7 @@ def test_the_middle_of_a_graben_serves_both_faults(order, middle):
 def test_a_horizon_beyond_a_blind_tip_is_left_alone():
     blind = {"F": [(1400, 450), (1600, 900)]}
     above = [(0, 400), (3000, 400)]
-    found = drawing(blind, above, [(0, 600), (1466, 600)], [(1490, 650), (3000, 650)])
+    found = network(blind, above, [(0, 600), (1466, 600)], [(1490, 650), (3000, 650)])
     (pair,) = found.cutoffs()
     assert (pair.hanging_wall[0], pair.footwall[0]) == (2, 1)
     whole = found.horizons["H"][0]
@@ -167,15 +169,15 @@ def test_an_overshoot_counts_where_no_other_piece_lies():
     """A bed drawn across a fault by a little, with nothing beyond it: its short end is the other side's piece."""
     over = [(0, 400), (on_fault(400) + 60, 400)]
     line = [LineString(fault().points)]
-    assert len(parts([LineString(over)], line)) == 2
-    assert len(parts([LineString(over), LineString([(1400, 500), (3000, 500)])], line)) == 2
+    assert len(horizon_segments([LineString(over)], line)) == 2
+    assert len(horizon_segments([LineString(over), LineString([(1400, 500), (3000, 500)])], line)) == 2
     assert sw.throw(fault(), sw.Horizon(over)) == pytest.approx(0, abs=1e-9)
     assert sw.throw(fault(), sw.Horizon(over, horizon(100).pieces[1])) == pytest.approx(100)
 
 
 def test_a_piece_across_several_faults_is_split_at_each():
     lines = [LineString(line) for line in GRABEN.values()]
-    found = split_piece(LineString([(3000, 400), (0, 400)]), lines, number=7)
+    found = split_at_faults(LineString([(3000, 400), (0, 400)]), lines, number=7)
     assert [part.line.length for part in found] == pytest.approx([960, 1080, 960])
     assert [tuple(end and (end.fault, end.side) for end in part.ends) for part in found] == [
         (None, (1, -1)),

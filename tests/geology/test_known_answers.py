@@ -33,7 +33,7 @@ def test_blocks_come_back(case, vertices, held):
     errors, block = block_errors(stage, case.to_unfaulted, case.block, rigid=not held)
     assert stage.report.converged
     assert stage.report.iterations <= 10
-    assert stage.report.unmet == ()
+    assert stage.report.findings == ()
     assert errors.max() <= 2e-3 * largest_throw(stage)
     if held:
         assert (errors[block == 0] == 0).all()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.geology.plan import Task
+from seiswidgets.geology.plan import RestorationJob
 
 
 @pytest.fixture(scope="module")
@@ -14,7 +14,7 @@ def case():
 
 @pytest.fixture(scope="module")
 def task(case):
-    return Task(case.section, case.interpretation, case.fixed, sw.Plan(spacing=60.0))
+    return RestorationJob(case.section, case.interpretation, case.fixed, sw.Plan(spacing=60.0))
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_a_plan_is_the_chain_of_its_steps(case, restored):
 
 
 def test_steps_that_are_off_or_have_nothing_to_do_are_left_out(case, task):
-    assert Task(case.section, sw.Interpretation(), None, sw.Plan()).restored().stages == ()
+    assert RestorationJob(case.section, sw.Interpretation(), None, sw.Plan()).restored().stages == ()
     off = replace(task, plan=replace(task.plan, steps=(sw.Step("unfault", on=False), sw.Step("flatten"))))
     assert [stage.kind for stage in off.restored().stages] == ["flatten"]
     only_faults = replace(task, interpretation=sw.Interpretation(case.interpretation.faults))
@@ -90,7 +90,7 @@ def test_the_coarse_task_is_not_too_coarse_for_its_picks(case, task):
 @pytest.mark.parametrize("name", ["faulted_fold", "listric_fault", "graben"])
 def test_a_quick_look_is_near_the_full_restoration(name):
     case = getattr(sw.synthetic, name)()
-    task = Task(case.section, case.interpretation, case.fixed, sw.Plan())
+    task = RestorationJob(case.section, case.interpretation, case.fixed, sw.Plan())
     earlier = task, task.restored()
     pieces = [piece.copy() for piece in case.interpretation.horizons[0].pieces]
     pieces[0][-1] += (0, 40)

@@ -45,9 +45,9 @@ def test_the_two_sides_of_each_fault_are_more_alike(restored, record_property):
     picks, unfaulted, _ = restored
     today = sw.Restoration(unfaulted.original)
     for fault in picks.faults:
-        before, after = sw.likeness(today, fault), sw.likeness(unfaulted, fault)
-        record_property(f"likeness across {fault.name}", f"{before:.2f} before, {after:.2f} after")
-        print(f"{unfaulted.original.name}, fault {fault.name}: likeness {before:.2f} before, {after:.2f} after")
+        before, after = sw.cross_fault_correlation(today, fault), sw.cross_fault_correlation(unfaulted, fault)
+        record_property(f"cross_fault_correlation across {fault.name}", f"{before:.2f} before, {after:.2f} after")
+        print(f"{unfaulted.original.name}, fault {fault.name}: correlation {before:.2f} before, {after:.2f} after")
         assert after > before + 0.1
 
 

@@ -227,10 +227,12 @@ def test_the_mesh_is_taken_over_where_nothing_that_shapes_it_has_changed(fold, c
     picks, start, choices = case.interpretation, restored.stages[0], {"fixed": case.fixed, **change}
     begin = replace(restored, stages=())
     cold, warm = (begin.unfault(picks.faults, picks.horizons, **choices, start=at).stages[0] for at in (None, start))
-    assert warm.laid is start.laid
-    assert cold.laid is not start.laid
+    assert warm.mesh_setup is start.mesh_setup
+    assert cold.mesh_setup is not start.mesh_setup
     np.testing.assert_allclose(
-        warm.vertices[: len(warm.laid.mesh.vertices)], cold.vertices[: len(cold.laid.mesh.vertices)], atol=1e-3
+        warm.vertices[: len(warm.mesh_setup.mesh.vertices)],
+        cold.vertices[: len(cold.mesh_setup.mesh.vertices)],
+        atol=1e-3,
     )
 
 
@@ -259,9 +261,9 @@ def test_the_mesh_is_made_anew_where_the_picks_have_changed(fold):
     same_name = sw.Fault(fault.points, name=horizons[0].name)
     for faults, beds in ((moved, horizons), (fault, horizons[:2]), (same_name, horizons)):
         again = begin.unfault(faults, beds, fixed=case.fixed, start=start).stages[0]
-        assert again.laid is not start.laid
+        assert again.mesh_setup is not start.mesh_setup
     finer = replace(begin, spacing=110.0).unfault(fault, horizons, fixed=case.fixed, start=start).stages[0]
-    assert finer.laid is not start.laid
+    assert finer.mesh_setup is not start.mesh_setup
 
 
 def test_a_warm_start_is_near_the_answer_at_once_though_the_outline_has_changed(fold):

@@ -11,8 +11,8 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError
-from seiswidgets.io.autosave import found, numbered, set_aside
-from seiswidgets.io.savedpicks import SavedPick
+from seiswidgets.io.session.autosave import found, numbered, set_aside
+from seiswidgets.io.session.saved_picks import SavedPick
 
 ROOT = Path(__file__).parents[2]
 SESSION = sw.Session(sw.SectionSource("dataset", "f3"), None)

@@ -9,8 +9,8 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets import __main__ as command
-from seiswidgets.io import replay
-from seiswidgets.io.replay import output_names
+from seiswidgets.io.session import replay
+from seiswidgets.io.session.replay import output_names
 
 ROOT = Path(__file__).parents[2]
 PLAN = sw.Plan(spacing=90.0)

@@ -9,8 +9,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError
-from seiswidgets.io.datasets import F3, FOLDER_VARIABLE, TEAPOT, Source, located
-from seiswidgets.io.readers import read_ascii_inline, read_raw_traces
+from seiswidgets.io.datasets import F3, FOLDER_VARIABLE, TEAPOT, Source, located, read_ascii_inline, read_raw_traces
 
 CONTENT = b"some traces"
 SHA256 = hashlib.sha256(CONTENT).hexdigest()

@@ -82,7 +82,7 @@ def test_a_cube_is_no_matrix_whatever_its_extent(tmp_path):
 
 
 def test_integers_are_counted_as_the_floats_that_they_become(tmp_path, monkeypatch):
-    monkeypatch.setattr("seiswidgets.io.choices.MOST_BYTES", 100)
+    monkeypatch.setattr("seiswidgets.io.options.MOST_BYTES", 100)
     with pytest.raises(sw.DataError, match=r"line.npy would make a section of 4 x 4 amplitudes"):
         sw.open_section(npy(tmp_path / "line.npy", np.ones((4, 4), np.int8)), **AXES)
 
@@ -121,7 +121,7 @@ def test_a_header_that_python_cannot_parse_is_refused(tmp_path):
 
 def test_an_npz_that_would_unpack_to_too_much_is_refused_packed(tmp_path, monkeypatch):
     np.savez_compressed(tmp_path / "line.npz", amplitude=np.zeros((100, 100)))
-    monkeypatch.setattr("seiswidgets.io.choices.MOST_BYTES", 10_000)
+    monkeypatch.setattr("seiswidgets.io.options.MOST_BYTES", 10_000)
     monkeypatch.setattr(zipfile.ZipFile, "open", lambda *_: pytest.fail("unpacked"))
     with pytest.raises(sw.DataError, match=r"line.npz would make a section of 80128 amplitudes"):
         sw.open_section(tmp_path / "line.npz", **AXES)
@@ -161,7 +161,7 @@ def test_text_that_is_no_matrix(tmp_path, content, encoding, message):
 
 
 def test_a_text_in_one_row_is_refused_before_it_is_read(tmp_path, monkeypatch):
-    monkeypatch.setattr("seiswidgets.io.matrices.MOST_ROW", 10)
+    monkeypatch.setattr("seiswidgets.io.rasters.arrays.MOST_ROW", 10)
     with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write a row for each sample"):
         sw.open_section(text(tmp_path / "line.txt", "1 2 3 4 5 6\n1 2 3 4 5 6\n"), **AXES)
 

@@ -114,7 +114,7 @@ def test_z_that_grows_upwards_is_not_taken_for_depth(tmp_path):
 
 
 OPENDTECT_HORIZON = """\
-# "Line name" "X" "Y" "TraceNr" "ShotPointNr" "Z (ms)"
+# "PickLine name" "X" "Y" "TraceNr" "ShotPointNr" "Z (ms)"
  "L 1"      100.00      500.00         1      1.00   100.000
  "L 1"      110.00      500.00         2      2.00   101.000
  "L 1"      120.00      500.00         3      3.00   1e30
@@ -127,7 +127,7 @@ OPENDTECT_HORIZON = """\
 """
 MULTI_LINE_HEADER = """\
 # 1: Horizon Name
-# 2: Line Name
+# 2: PickLine Name
 # 3: X
 # 4: Y
 # 5: Trace Nr
@@ -423,7 +423,7 @@ def test_files_that_are_not_there_or_too_large_are_not_read(tmp_path):
 
 
 def test_more_points_than_there_may_be_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr("seiswidgets.io.picks.exports.MOST_POINTS", 2)
+    monkeypatch.setattr("seiswidgets.io.picks.map_points.MOST_POINTS", 2)
     with pytest.raises(DataError, match=r"a.cps3: row 7 is one more than the 2 points that there may be on a line"):
         sw.read_picks(written(tmp_path, "a.cps3", CPS3), DEPTH, format="cps3-faults", along="x")
 

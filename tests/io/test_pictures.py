@@ -5,7 +5,7 @@ import pytest
 from PIL import ExifTags, Image
 
 import seiswidgets as sw
-from seiswidgets.io import pictures
+from seiswidgets.io.rasters import images
 
 GREY = np.array([[0, 255, 51], [102, 153, 204]], np.uint8)
 EXTENT = (100, 300, 500, 540)
@@ -131,7 +131,7 @@ def test_an_extent_and_a_spacing_are_one_too_many(tmp_path):
 
 def test_a_picture_with_too_many_pixels_is_refused_undecoded(tmp_path, monkeypatch):
     path = saved(tmp_path / "scan.png", GREY)
-    monkeypatch.setattr(pictures, "MOST_PIXELS", 5)
+    monkeypatch.setattr(images, "MOST_PIXELS", 5)
     monkeypatch.setattr(Image.Image, "load", lambda image: pytest.fail("decoded"))
     with pytest.raises(sw.DataError, match=r"scan.png is a picture of 3 x 2 pixels; there may be 5"):
         sw.preview(path)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.io.reports import _plain
+from seiswidgets.io.exports.reports import _plain
 from tests.io.restored import NAUGHTY, restored
 
 

@@ -180,7 +180,7 @@ def test_what_stood_there_stays_when_writing_fails(tmp_path, monkeypatch):
     def full(*_):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("seiswidgets.io.segywriting._textual_header", full)
+    monkeypatch.setattr("seiswidgets.io.segy.writing._textual_header", full)
     with pytest.raises(sw.DataError, match=r"line.sgy cannot be written: No space left.*What stood there is unchanged"):
         sw.save_section(restored(), path)
     assert path.read_text() == "before"

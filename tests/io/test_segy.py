@@ -9,8 +9,8 @@ import pytest
 import segyio
 
 import seiswidgets as sw
-from seiswidgets.io.segy import line_on_map
-from seiswidgets.io.segylayout import decoded
+from seiswidgets.io.segy.layout import decoded
+from seiswidgets.io.segy.reading import line_on_map
 from tests.io.segyfiles import ibm, numbered, segy_bytes, straight, volume_headers
 
 RAMP = np.arange(-6, 6).reshape(3, 4)

@@ -9,8 +9,8 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, PickError, SettingError
-from seiswidgets.io.savedpicks import SavedPick
-from seiswidgets.io.sources import _revived, section_sha256
+from seiswidgets.io.session.saved_picks import SavedPick
+from seiswidgets.io.session.sources import _revived, section_sha256
 from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.sections import real_section
 

@@ -10,7 +10,7 @@ import seiswidgets as sw
 case = sw.synthetic.faulted_fold()
 drawn = case.interpretation
 app = sw.RestorationApp(case.section, height=340)
-pen, panes = app.picker.pen, (app.panes.original, app.panes.restored)
+editor, panes = app.picker.editor, (app.panes.original, app.panes.restored)
 """
 FEW = """
 fault = sw.Fault(drawn.faults[0].points[[0, 10, 20, 30]], "F1")
@@ -21,8 +21,8 @@ app.interpretation = sw.Interpretation([fault], [sw.Horizon(*pieces, name="H1")]
 RESTORED = "app.interpretation, app.fixed = drawn, case.fixed\n"
 SHOWN = "app\n"
 
-PICKS = "[[pick.name, [[[*at] for at in piece] for piece in pick.pieces]] for pick in pen.drawing.picks]"
-UNDER_WAY = "pen.drawing.under_way.points if pen.drawing.under_way else []"
+PICKS = "[[pick.name, [[[*at] for at in piece] for piece in pick.pieces]] for pick in editor.drawing.picks]"
+DRAFT = "editor.drawing.draft.points if editor.drawing.draft else []"
 PIXELS = """(canvases) => canvases.map((canvas) => {
   const { width, height } = canvas;
   const data = canvas.getContext("2d").getImageData(0, 0, width, height).data;

@@ -2,7 +2,7 @@
 
 from base64 import b64encode
 
-from seiswidgets.widgets.panes.pointer import LAYER, PointerLayer
+from seiswidgets.widgets.section_view.pointer_layer import LAYER, PointerLayer
 
 SIZE = 600, 400  # css pixels of the plot area
 CORNER = 100, 50  # of the page, where it begins

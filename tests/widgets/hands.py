@@ -4,7 +4,7 @@ SIZE = {"kind": "size", "width": 800, "height": 400, "ratio": 1, "fresh": True}
 
 
 def tell(pane, kind, **content):
-    """One happening."""
+    """One message."""
     pane.layer._handle_custom_msg({"kind": kind, **content}, [])
 
 

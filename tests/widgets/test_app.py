@@ -7,8 +7,8 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import PickError
+from seiswidgets.widgets import restorer
 from seiswidgets.widgets.app import RestorationApp
-from seiswidgets.widgets.restoring import restorer
 from tests.widgets.hands import appear, drag_to, draw, press, release, tell
 
 LONG = 60  # seconds until a restoration must be done
@@ -89,7 +89,7 @@ def test_a_line_drawn_in_the_restored_pane_lies_where_the_restoration_says(app, 
     points = [(x_min + share * (x_max - x_min), z_min + 0.8 * (z_max - z_min)) for share in (0.05, 0.15, 0.3)]
     there = app.restoration.to_original(points)
     app.picker.mode = "horizon"
-    app.picker.pen.deselect()
+    app.picker.editor.deselect()
     draw(app.panes.restored, *points)
     new = app.interpretation.horizons[-1]
     pixel = app.panes.original.view.pixel
@@ -182,7 +182,7 @@ def _sliders(widget):
 
 def test_cancel_leaves_what_was_there(app, monkeypatch):
     before, begun, go_on = app.restoration, threading.Event(), threading.Event()
-    restored = restorer.Task.restored
+    restored = restorer.RestorationJob.restored
 
     def slow(self, earlier=None, progress=None):
         def told(*numbers):
@@ -195,7 +195,7 @@ def test_cancel_leaves_what_was_there(app, monkeypatch):
     app.live = False
     app.weights = sw.Weights(stitch=33.0)
     assert "press Restore" in app.status.text
-    monkeypatch.setattr(restorer.Task, "restored", slow)
+    monkeypatch.setattr(restorer.RestorationJob, "restored", slow)
     app.restore()
     assert begun.wait(LONG)
     app.cancel()
@@ -238,7 +238,7 @@ def test_what_should_not_happen_is_said_too(app, monkeypatch, caplog):
         raise ZeroDivisionError("oh")
 
     app.live = False
-    monkeypatch.setattr(restorer.Task, "restored", broken)
+    monkeypatch.setattr(restorer.RestorationJob, "restored", broken)
     app.restore()
     assert app.wait(LONG)
     assert "should not have happened: ZeroDivisionError" in app.status.text

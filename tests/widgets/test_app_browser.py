@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from tests.widgets.appscreen import FEW, PICKS, UNDER_WAY
+from tests.widgets.appscreen import DRAFT, FEW, PICKS
 
 STEPS = "[stage.kind for stage in app.restoration.stages]"
 BEDS = "[np.concatenate([piece[5:-5] for piece in bed.pieces]) for bed in drawn.horizons]"  # clear of the fault
@@ -56,16 +56,16 @@ def by_tab(screen, what, key="Tab"):
 
 def steer(screen, target):
     """Bring the keyboard's cursor to a point, to the nearest trace and sample."""
-    cursor = np.array(screen.ask("pen.state.cursor"))
+    cursor = np.array(screen.ask("editor.state.cursor"))
     cell = np.array(screen.ask("[case.section.dx, case.section.dz]"))
-    strides = screen.ask("np.maximum(1, np.ceil(8 * pen.view.pixel / [case.section.dx, case.section.dz])).tolist()")
+    strides = screen.ask("np.maximum(1, np.ceil(8 * editor.view.pixel / [case.section.dx, case.section.dz])).tolist()")
     for axis, names in enumerate((("Left", "Right"), ("Up", "Down"))):
         cells = round((target[axis] - cursor[axis]) / cell[axis])
         key, left = f"Arrow{names[cells > 0]}", abs(cells)
         for modifier, stride in (("Shift+", 10 * strides[axis]), ("", strides[axis]), ("Control+", 1)):
             count, left = divmod(left, stride)
             screen.press(*[modifier + key] * int(count))
-    screen.nears("pen.state.cursor", target, (cell / 2 + 1e-6).max())
+    screen.nears("editor.state.cursor", target, (cell / 2 + 1e-6).max())
 
 
 def by_keys(screen, *points):
@@ -81,7 +81,7 @@ def test_from_an_empty_app_to_a_restored_section_by_keyboard_alone(open_app):
     before = screen.pictures()[1]
     by_tab(screen, "plot")
     screen.press("f", "Enter")
-    screen.until("pen.state.cursor")
+    screen.until("editor.state.cursor")
     by_keys(screen, *screen.points("drawn.faults[0].points[::10]"))
     screen.becomes("len(app.interpretation.faults)", 1)
     screen.press("h", "Enter")
@@ -114,7 +114,7 @@ def undone(screen, before):
 
 def test_vertices_are_added_dragged_inserted_removed_and_nudged(open_app):
     screen = open_app(FEW)
-    before, pixel = screen.ask(PICKS), screen.points("pen.view.pixel")
+    before, pixel = screen.ask(PICKS), screen.points("editor.view.pixel")
     (_, (fault,)), (_, (line, _)) = before
     line = np.array(line)
 
@@ -122,26 +122,26 @@ def test_vertices_are_added_dragged_inserted_removed_and_nudged(open_app):
     place = [(500, 300), (700, 900), (900, 1400)]
     for count, point in enumerate(place, 1):
         screen.click(point)
-        screen.becomes(f"len({UNDER_WAY})", count)
-    np.testing.assert_allclose(screen.points(UNDER_WAY), place, atol=1.01 * pixel.max())
+        screen.becomes(f"len({DRAFT})", count)
+    np.testing.assert_allclose(screen.points(DRAFT), place, atol=1.01 * pixel.max())
     screen.press("Control+z", "Control+z")
-    screen.becomes(f"len({UNDER_WAY})", 1)
+    screen.becomes(f"len({DRAFT})", 1)
     screen.press("Control+Shift+Z", "Control+y")
-    screen.becomes(f"len({UNDER_WAY})", 3)
+    screen.becomes(f"len({DRAFT})", 3)
     screen.press("Escape")
-    screen.becomes(f"len({UNDER_WAY})", 0)
+    screen.becomes(f"len({DRAFT})", 0)
     screen.press("Control+z")
-    screen.becomes(f"len({UNDER_WAY})", 3)
+    screen.becomes(f"len({DRAFT})", 3)
     screen.press("Enter")
     undone(screen, before)  # by which the line is under way again
-    screen.becomes(f"len({UNDER_WAY})", 3)
+    screen.becomes(f"len({DRAFT})", 3)
     screen.page.mouse.dblclick(*screen.pixels([place[-1]])[0])
     undone(screen, before)
     screen.press("Escape")
     screen.becomes(PICKS, before)
 
     screen.drag(fault[1], fault[1] + np.array([150, 0]))
-    screen.nears("pen.drawing.picks[0].pieces[0][1]", fault[1] + np.array([150, 0]), pixel.max())
+    screen.nears("editor.drawing.picks[0].pieces[0][1]", fault[1] + np.array([150, 0]), pixel.max())
     undone(screen, before)
 
     screen.button("Horizon").click()
@@ -154,36 +154,36 @@ def test_vertices_are_added_dragged_inserted_removed_and_nudged(open_app):
 
     middle = line[1:3].mean(axis=0)
     screen.click(middle)
-    screen.nears("pen.drawing.picks[1].pieces[0][2]", middle, pixel.max())
+    screen.nears("editor.drawing.picks[1].pieces[0][2]", middle, pixel.max())
     undone(screen, before)
     for remove in (("Control",), ()):
         screen.click(line[2], modifiers=remove)
         if not remove:
             screen.press("Delete")
-        screen.nears("pen.drawing.picks[1].pieces[0]", np.delete(line, 2, axis=0))
+        screen.nears("editor.drawing.picks[1].pieces[0]", np.delete(line, 2, axis=0))
         undone(screen, before)
     screen.click(line[1])
     screen.press("Insert")
-    screen.nears("pen.drawing.picks[1].pieces[0][2]", middle)
+    screen.nears("editor.drawing.picks[1].pieces[0][2]", middle)
     undone(screen, before)
     screen.click(line[1])
     screen.press("PageDown", "ArrowDown", "Shift+ArrowRight")
-    screen.nears("pen.drawing.picks[1].pieces[0][2]", line[2] + [125, 5])
+    screen.nears("editor.drawing.picks[1].pieces[0][2]", line[2] + [125, 5])
     screen.press("Control+z", "Control+z")
     screen.becomes(PICKS, before)
 
 
 def test_cut_offs_snapping_following_and_holding(open_app):
     screen = open_app(FEW)
-    before, pixel = screen.ask(PICKS), screen.points("pen.view.pixel").max()
-    fault = screen.points("pen.drawing.picks[0].pieces[0]")
-    marks = screen.points("[mark.inside for mark in pen.cutoffs()]")
+    before, pixel = screen.ask(PICKS), screen.points("editor.view.pixel").max()
+    fault = screen.points("editor.drawing.picks[0].pieces[0]")
+    marks = screen.points("[mark.inside for mark in editor.cutoffs()]")
     assert len(marks) == 2
     expect(screen.plots.first.locator(".cutoff .number")).to_have_text(["1", "1"])
     screen.button("Horizon").click()
     aim = fault[1:3].mean(axis=0)
     screen.drag(marks[0], aim + [60, 0])
-    end = "pen.drawing.picks[1].pieces[0][-1]"
+    end = "editor.drawing.picks[1].pieces[0][-1]"
     screen.until(f"{end} != {before[1][1][0][-1]}")
     screen.until("not app.picker.dragging")
     along, off = np.diff(fault[1:3], axis=0)[0], screen.points(end) - fault[1]
@@ -198,18 +198,18 @@ def test_cut_offs_snapping_following_and_holding(open_app):
     screen.button("next line").click()
     bed = screen.points("drawn.horizons[1].pieces[0][[20, 40, 60]]")
     screen.click(bed[0] + [0, 20])
-    screen.becomes(f"len({UNDER_WAY})", 1)
-    ((x, z),) = screen.points(UNDER_WAY)
+    screen.becomes(f"len({DRAFT})", 1)
+    ((x, z),) = screen.points(DRAFT)
     depth = "np.interp({}, *drawn.horizons[1].pieces[0].T)"
     assert z == pytest.approx(screen.ask(f"float({depth.format(x)})"), abs=2)  # metres; the click was 20 m off
     screen.button("Follow").click()
     screen.click(bed[2] + [0, 15])
-    screen.until(f"len({UNDER_WAY}) > 2")
+    screen.until(f"len({DRAFT}) > 2")
     way = screen.points("drawn.horizons[1].pieces[0][20:61]")
-    assert abs(np.interp(way[:, 0], *screen.points(UNDER_WAY).T) - way[:, 1]).max() < 5  # metres, a sample
+    assert abs(np.interp(way[:, 0], *screen.points(DRAFT).T) - way[:, 1]).max() < 5  # metres, a sample
     assert abs(np.interp(way[:, 0], *way[[0, -1]].T) - way[:, 1]).max() > 20
     screen.press("Control+z")
-    screen.becomes(f"len({UNDER_WAY})", 1)
+    screen.becomes(f"len({DRAFT})", 1)
     screen.press("Escape", "Escape")
 
     screen.button("Hold").click()
@@ -229,15 +229,15 @@ def test_zoom_and_pan_while_a_line_is_under_way(open_app):
     screen.button("Horizon").click()
     screen.button("next line").click()
     screen.click((400, 300), (800, 350))
-    screen.becomes(f"len({UNDER_WAY})", 2)
-    line = screen.ask(UNDER_WAY)
+    screen.becomes(f"len({DRAFT})", 2)
+    line = screen.ask(DRAFT)
 
     def moved(by, *arguments):
         """Do something that must change the view, and nothing else."""
-        window = screen.ask("pen.view.window")
+        window = screen.ask("editor.view.window")
         by(*arguments)
-        screen.until(f"pen.view.window != tuple({window})")
-        screen.becomes(UNDER_WAY, line)
+        screen.until(f"editor.view.window != tuple({window})")
+        screen.becomes(DRAFT, line)
 
     mouse, (x, y) = screen.page.mouse, screen.pixels([(900, 400)])[0]
     mouse.move(x, y)
@@ -259,11 +259,11 @@ def test_zoom_and_pan_while_a_line_is_under_way(open_app):
     mouse.move(x, y)
     box = screen.plots.first.bounding_box()
     screen.page.wait_for_function(BAND, arg=[*(start - [box["x"], box["y"]]), x - box["x"], y - box["y"]])
-    point = screen.points(f"pen.view.to_section([{x - box['x']}, {y - box['y']}])")
+    point = screen.points(f"editor.view.to_section([{x - box['x']}, {y - box['y']}])")
     mouse.dblclick(x, y)
     screen.nears("app.interpretation.horizons[-1].pieces[0]", [*line, point], 0.01)
     screen.press("0")
-    screen.until("pen.view.is_fitted")
+    screen.until("editor.view.is_fitted")
 
 
 BAND = """(ends) => {
@@ -284,4 +284,4 @@ def test_what_is_drawn_while_a_cell_runs_comes_in_order(open_app):
             screen.page.mouse.click(x, y)
         screen.page.mouse.dblclick(*last)
     screen.becomes("len(app.interpretation.faults)", 2)
-    screen.nears("app.interpretation.faults[1].points", fault, screen.points("pen.view.pixel").max())
+    screen.nears("app.interpretation.faults[1].points", fault, screen.points("editor.view.pixel").max())

@@ -13,8 +13,8 @@ from tests.widgets.test_histogram_browser import bar
 
 PLACES = "[(500.0, 400.0), (1500.0, 900.0), (2600.0, 1600.0), (3500.0, 700.0)]"
 NOTING = """
-from seiswidgets.geology.plan import Task
-asked, shown, restored, show = {}, [], Task.restored, app.panes.show
+from seiswidgets.geology.plan import RestorationJob
+asked, shown, restored, show = {}, [], RestorationJob.restored, app.panes.show
 def note(task, *arguments):
     result = restored(task, *arguments)
     asked[id(result)] = result, task.plan.weights.mean_value
@@ -22,7 +22,7 @@ def note(task, *arguments):
 def show_noted(frame):
     shown.append(asked[id(frame.restoration)][1])
     show(frame)
-Task.restored, app.panes.show = note, show_noted
+RestorationJob.restored, app.panes.show = note, show_noted
 """
 NAME = "<img src=x onerror=alert(1)>"
 
@@ -74,8 +74,8 @@ def test_a_line_drawn_in_the_restored_pane_is_where_to_original_says(open_app):
     there = screen.points(f"app.restoration.to_original({along.tolist()})")
     before = set(screen.paths())
     screen.click(*ends, number=1)
-    last = f"np.allclose(pen.drawing.under_way.points[-1], {there[-1].tolist()}, 0, 1)"
-    screen.until(f"pen.drawing.under_way and {last}")
+    last = f"np.allclose(editor.drawing.draft.points[-1], {there[-1].tolist()}, 0, 1)"
+    screen.until(f"editor.drawing.draft and {last}")
     is_drawn_through(screen, there, before)
     screen.press("Enter")
     screen.becomes("len(app.interpretation.horizons)", 4)

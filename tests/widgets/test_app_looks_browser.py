@@ -42,7 +42,7 @@ def test_every_state_in_every_look(open_app):
     screen.until("len(app.restoration.stages) == 2 and app.wait(30)")
     look(screen, "restored")
     screen.button("Horizon").click()
-    (mark,) = screen.points("[mark.inside for mark in pen.cutoffs()][:1]")
+    (mark,) = screen.points("[mark.inside for mark in editor.cutoffs()][:1]")
     screen.drag(mark, mark + [60, 120], drop=False)
     screen.until("app.picker.dragging and app.panes.shown.moving")
     screen.shoot("app-dragging")

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.restoring.controls import SolverControls
+from seiswidgets.widgets.panels.controls import SolverControls
 
 
 def test_only_a_hand_moves_the_mesh_spacing():
@@ -22,6 +22,6 @@ def test_the_mesh_spacing_suits_sections_of_any_size():
     controls = SolverControls(small)
     for section in (large, small):
         controls.take(section)
-        slider, usual = controls._slider, sw.Restoration(section).ground.spacing
+        slider, usual = controls._slider, sw.Restoration(section).domain.spacing
         np.testing.assert_allclose([10**slider.min, slider.value, 10**slider.max], [usual / 4, usual, 4 * usual])
         assert controls.spacing is None

@@ -14,8 +14,8 @@ import xarray
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.widgets.app import RestorationApp
-from seiswidgets.widgets.files import picksfiles, resultfiles, sectionopener
-from seiswidgets.widgets.files.filefield import FileField
+from seiswidgets.widgets.files import picks_files, result_files, section_opener
+from seiswidgets.widgets.files.file_field import FileField
 from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.widgets.files import line, message, send, volume
 from tests.widgets.hands import appear, draw
@@ -216,38 +216,38 @@ def test_what_cannot_be_opened_is_said_and_changes_nothing(app, case, tmp_path, 
 
 
 def test_opening_can_be_cancelled(app, case, tmp_path, monkeypatch):
-    begun, go_on, opened = threading.Event(), threading.Event(), sectionopener.open_section
+    begun, go_on, opened = threading.Event(), threading.Event(), section_opener.open_section
 
     def slow(path, *, progress, **choices):
         begun.set()
         go_on.wait(LONG)
         return opened(path, progress=progress, **choices)
 
-    monkeypatch.setattr(sectionopener, "open_section", slow)
+    monkeypatch.setattr(section_opener, "open_section", slow)
     opener = look(app, line(tmp_path / "line.sgy"))
     opener.load()
     assert begun.wait(LONG)
-    assert opener.chore.layout.display == ""
+    assert opener.job.layout.display == ""
     assert opener._open.disabled
-    opener.chore._cancel.click()
+    opener.job._cancel.click()
     assert "Stopping" in opener.notice.text
     go_on.set()
     assert opener.wait(LONG)
     assert app.section is case.section
     assert "cancelled" in opener.notice.text
-    assert opener.chore.layout.display == "none"
+    assert opener.job.layout.display == "none"
     assert not opener._open.disabled
 
 
 def test_another_path_takes_the_place_of_what_is_being_opened(app, case, tmp_path, monkeypatch):
-    begun, go_on, opened = threading.Event(), threading.Event(), sectionopener.open_section
+    begun, go_on, opened = threading.Event(), threading.Event(), section_opener.open_section
 
     def slow(path, *, progress, **choices):
         begun.set()
         go_on.wait(LONG)
         return opened(path, **choices)
 
-    monkeypatch.setattr(sectionopener, "open_section", slow)
+    monkeypatch.setattr(section_opener, "open_section", slow)
     opener = look(app, line(tmp_path / "line.sgy"))
     opener.load()
     assert begun.wait(LONG)
@@ -260,7 +260,7 @@ def test_another_path_takes_the_place_of_what_is_being_opened(app, case, tmp_pat
 
 
 def test_what_should_not_happen_is_said_too(app, tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(sectionopener, "open_section", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr(section_opener, "open_section", lambda *_, **__: 1 / 0)
     opener = load(app, line(tmp_path / "line.sgy"))
     assert "should not have happened: ZeroDivisionError" in opener.notice.text
     assert "in the background failed" in caplog.text
@@ -277,12 +277,12 @@ def test_picks_are_kept_or_dropped_as_the_user_says(restored, case, tmp_path):
     answer(opener.notice, "Keep the picks")
     assert app.section is not case.section
     assert app.picker.drawing == drawn
-    assert not app.picker.pen.can_undo
+    assert not app.picker.editor.can_undo
     load(app, line(tmp_path / "line.sgy"))
     assert set(opener.notice.answers) == {"Drop the picks", "Do not open"}
     answer(opener.notice, "Drop the picks")
     assert app.picker.drawing.picks == ()
-    assert not app.picker.pen.can_undo
+    assert not app.picker.editor.can_undo
     assert app.restoration.stages == ()
 
 
@@ -415,7 +415,7 @@ def test_picks_go_out_and_come_in(restored, case, tmp_path, suffix):
     assert take(picks, picks.out.value) == "Read 1 fault and 3 horizons; Undo brings back what was there."
     (fault,) = restored.interpretation.faults
     np.testing.assert_array_equal(fault.points, case.interpretation.faults[0].points)
-    restored.picker.pen.undo()
+    restored.picker.editor.undo()
     restored.picker.refresh()
     assert restored.interpretation.faults == ()
     picks.write()
@@ -429,7 +429,7 @@ def test_picks_that_are_drawn_stay_beside_those_of_a_file(app, tmp_path):
         sw.Fault([(x, 100.0), (x, 900.0)], name) for x, name in ((500.0, "A"), (900.0, "B"), (700.0, "A"))
     )
     app.interpretation = sw.Interpretation([old, other])
-    app.picker.pen.recolour("fault", "A", "#123456")
+    app.picker.editor.recolour("fault", "A", "#123456")
     app.picker.refresh()
     sw.write_picks(sw.Interpretation([new]), tmp_path / "picks.csv", app.section)
     take(app.files.picks, tmp_path / "picks.csv")
@@ -498,12 +498,12 @@ def test_an_import_can_be_cancelled(app, tmp_path, monkeypatch):
         go_on.wait(LONG)
         return sw.Interpretation([sw.Fault([(0.0, 0.0), (100.0, 100.0)])])
 
-    monkeypatch.setattr(picksfiles, "read_picks", slow)
+    monkeypatch.setattr(picks_files, "read_picks", slow)
     picks = app.files.picks
     picks.file.text.value = "picks.csv"
     picks.read()
     assert begun.wait(LONG)
-    picks.chore._cancel.click()
+    picks.job._cancel.click()
     go_on.set()
     assert picks.wait(LONG)
     assert "The import was cancelled" in picks.notice.text
@@ -566,20 +566,20 @@ def export_reports(app, folder):
 
 def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path, monkeypatch):
     begun, go_on = threading.Event(), threading.Event()
-    kind, write = resultfiles.WRITERS["report.json"]
+    kind, write = result_files.WRITERS["report.json"]
 
     def slow(result, path):
         begun.set()
         go_on.wait(LONG)
         write(result, path)
 
-    monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, slow))
+    monkeypatch.setitem(result_files.WRITERS, "report.json", (kind, slow))
     results = export_reports(restored, tmp_path)
     assert begun.wait(LONG)
     assert results.notice.text == "Writing faulted fold-report.json ..."
     assert results._export.disabled
     restored.interpretation = sw.Interpretation()  # goes on, and does not change what is written
-    results.chore._cancel.click()
+    results.job._cancel.click()
     go_on.set()
     assert results.wait(LONG)
     assert results.notice.text == f"The export was cancelled. Wrote into {tmp_path}: faulted fold-report.json."
@@ -589,12 +589,12 @@ def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path
 
 
 def test_one_file_that_cannot_be_written_keeps_no_other_from_it(restored, tmp_path, monkeypatch):
-    kind, _ = resultfiles.WRITERS["report.json"]
+    kind, _ = result_files.WRITERS["report.json"]
 
     def fail(result, path):
         raise DataError(f"{path} cannot be written: give x_unit=")
 
-    monkeypatch.setitem(resultfiles.WRITERS, "report.json", (kind, fail))
+    monkeypatch.setitem(result_files.WRITERS, "report.json", (kind, fail))
     results = export_reports(restored, tmp_path)
     assert results.wait(LONG)
     assert "report.json cannot be written: give “unit of x”. Wrote into" in results.notice.text

@@ -24,14 +24,14 @@ app
 EXPORTED = """
 app.interpretation, app.fixed, app.live = case.interpretation, case.fixed, True
 app.files.results.folder.value = "{0}-results"
-chore = app.files.results.chore
-tell = chore._tell
-chore._tell = lambda stop, wanted, share: (share > 0.5 and stop.wait(60), tell(stop, wanted, share))[-1]
+job = app.files.results.job
+tell = job._tell
+job._tell = lambda stop, wanted, share: (share > 0.5 and stop.wait(60), tell(stop, wanted, share))[-1]
 """
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
 SAVED = """[len(version.session.faults) for version in
-    __import__("seiswidgets.io.autosave").io.autosave.found("{0}.json")][:1]"""
+    __import__("seiswidgets.io.session.autosave").io.autosave.found("{0}.json")][:1]"""
 DISK = """exec('''
 from seiswidgets.io import writing
 class Full:
@@ -155,7 +155,7 @@ def test_a_connection_that_drops_for_ten_seconds_loses_nothing(app, name):
     app.page.wait_for_function(READY)
     assert app.ask(NAMES) == ["F1"]
     app.page.get_by_role("button", name="Look", exact=True).click()  # ends what came only in part
-    app.until("app.picker.pen.drawing.under_way is None")
+    app.until("app.picker.editor.drawing.draft is None")
     count = len(app.ask(NAMES)) + 1
     draw_fault(app, 0.8)
     app.becomes(f"len({NAMES})", count)
@@ -200,7 +200,7 @@ def export_and_cancel(app):
     """Begin an export, ask the kernel something meanwhile, and give it up after the second of three files."""
     app.page.get_by_role("button", name="Export results").click()
     app.page.get_by_text("Writing faulted fold-figure.png ...").wait_for()
-    assert app.ask("chore.busy")  # the last of the files waits for Cancel
+    assert app.ask("job.busy")  # the last of the files waits for Cancel
     shoot(app, "exporting")
     app.page.get_by_role("button", name="Cancel").last.click()
     app.page.get_by_text("The export was cancelled. Wrote into").wait_for()

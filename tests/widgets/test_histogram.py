@@ -3,10 +3,9 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.core.deformation import area_ratio_histogram, colour_span, weighted_percentiles
-from seiswidgets.plot.palette import AREA_RATIO
-from seiswidgets.widgets.panes.ratiocolours import RatioColouring
-from seiswidgets.widgets.restoring.histogram import APART, ratio_ticks
+from seiswidgets.core.deformation import AREA_RATIO_COLOURS, area_ratio_histogram, colour_span, weighted_percentiles
+from seiswidgets.interaction.colour import RatioColouring
+from seiswidgets.widgets.histogram import APART, ratio_ticks
 
 
 @pytest.fixture
@@ -33,7 +32,7 @@ def test_the_palette_is_that_of_the_deformation_map():
     assert palette[0, 3] == 0
     norm = mpl.colors.LogNorm(0.5, 2)
     for ratio in (0.5, 0.7, 1.0, 1.3, 2.0):
-        expected = 255 * np.array(mpl.colormaps[AREA_RATIO](norm(ratio)))
+        expected = 255 * np.array(mpl.colormaps[AREA_RATIO_COLOURS](norm(ratio)))
         np.testing.assert_allclose(palette[RatioColouring(2.0).levels(ratio), :3], expected[:3], atol=4)
 
 

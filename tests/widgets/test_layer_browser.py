@@ -7,7 +7,7 @@ import pytest
 
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh
-from seiswidgets.widgets.panes.overlay import Mark, Stroke, map_state, mesh_state
+from seiswidgets.interaction.overlay import Mark, Stroke, map_state, mesh_state
 
 IMG = "<img src=x onerror=alert(1)>"
 ROWS, COLUMNS = 9, 13

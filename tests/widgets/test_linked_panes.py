@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.restoring.frame import Frame
-from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
+from seiswidgets.widgets.linked_panes import LinkedPanes
+from seiswidgets.widgets.snapshot import Snapshot
 from tests.widgets.hands import appear, tell
 
 
@@ -127,7 +127,7 @@ def test_mesh_and_deformation_are_shown_in_both_panes(panes, restored):
 
 
 def test_the_ratio_is_taken_where_it_is_drawn(restored):
-    frame = Frame.of(restored)
+    frame = Snapshot.of(restored)
     for drawn, back in ((frame.ratio_before, lambda at: at), (frame.ratio_after, restored.to_original)):
         nz, nx = drawn.ratio.shape
         x_min, x_max, z_min, z_max = drawn.window
@@ -138,7 +138,7 @@ def test_the_ratio_is_taken_where_it_is_drawn(restored):
 
 def test_a_frame_while_something_moves_is_small_and_does_not_move_the_window(panes, restored):
     before = panes.restored.view
-    panes.show(Frame.of(restored.at(0.5), moving=True))
+    panes.show(Snapshot.of(restored.at(0.5), moving=True))
     assert np.prod(panes.restored.section.shape) <= 160_000
     assert panes.restored.view.window == before.window
     assert len(panes.original.layer.chain) == 1

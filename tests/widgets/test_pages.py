@@ -1,6 +1,6 @@
 from ipywidgets import HTML
 
-from seiswidgets.widgets.restoring.pages import Pages
+from seiswidgets.widgets.panels.pages import Pages
 
 
 def test_a_page_is_made_when_it_is_first_looked_at_and_once():

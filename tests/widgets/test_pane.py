@@ -9,10 +9,10 @@ from ipycanvas.canvas import _CANVAS_MANAGER, COMMANDS
 from PIL import Image
 
 import seiswidgets as sw
-from seiswidgets.widgets.panes.canvas import held
-from seiswidgets.widgets.panes.gestures import DoubleClick, Key, Move, Press, Release
-from seiswidgets.widgets.panes.overlay import Mark, Overlay, Stroke
-from seiswidgets.widgets.panes.texture import FEW, MOST
+from seiswidgets.interaction.gestures import DoubleClick, Key, Move, Press, Release
+from seiswidgets.interaction.overlay import Mark, Overlay, Stroke
+from seiswidgets.widgets.section_view.canvas import held
+from seiswidgets.widgets.section_view.texture import FEW, MOST
 
 NAMES = {number: name for name, number in COMMANDS.items()}
 SIZE = {"kind": "size", "width": 800, "height": 400, "ratio": 2, "fresh": True}
@@ -91,7 +91,7 @@ def test_a_page_that_comes_is_sent_everything_in_one_message(section, sent):
     assert {"putImageData", "drawImage"} <= set(sent[0].names)
     assert sent[0].names[0] == "switchCanvas"
     assert pane.view.backing == (1600, 800)
-    assert (pane._picture.canvas.width, pane._picture.canvas.height) == (1600, 800)
+    assert (pane._painter.canvas.width, pane._painter.canvas.height) == (1600, 800)
 
 
 def test_the_wheel_zooms_at_the_pointer(section, sent):
@@ -419,11 +419,11 @@ def test_a_hold_survives_an_exception(section, sent):
     pane = shown(section)
     sent.clear()
     with pytest.raises(ValueError, match="inside"), held():  # noqa: PT012
-        pane._picture.canvas[0].fill_rect(0, 0, 1, 1)
+        pane._painter.canvas[0].fill_rect(0, 0, 1, 1)
         raise ValueError("inside")
     assert not sent
     assert not _CANVAS_MANAGER._caching
-    pane._picture.canvas[0].fill_rect(0, 0, 1, 1)
+    pane._painter.canvas[0].fill_rect(0, 0, 1, 1)
     assert [drawing.names for drawing in sent] == [["switchCanvas"], ["fillRect"]]
 
 

@@ -12,7 +12,7 @@ import seiswidgets as sw
 section = sw.synthetic.listric_fault().section
 seen = []
 pane = sw.SectionPane(section)
-pane.layer.on_happening(lambda happening: seen.append(happening.kind))
+pane.layer.on_pointer_message(lambda message: seen.append(message.kind))
 pane
 """
 HALVES = """
@@ -45,7 +45,7 @@ ipywidgets.VBox([pane, other])
 PICKED = (
     CELL
     + """
-from seiswidgets.widgets.panes.overlay import Mark, Overlay, Stroke
+from seiswidgets.interaction.overlay import Mark, Overlay, Stroke
 x_min, x_max, z_min, z_max = pane.view.whole
 w, h = x_max - x_min, z_max - z_min
 at = lambda *points: np.array(points) * [w, h] + [x_min, z_min]

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.picking.picker import Picker
+from seiswidgets.widgets.picker import Picker
 from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
 
 FAULT = [(400.0, 100.0), (450.0, 300.0), (500.0, 500.0)]
@@ -107,7 +107,7 @@ def test_the_list_names_colours_hides_and_deletes(drawn):
     delete.click()
     assert not drawn.interpretation.faults
     for _ in range(4):
-        drawn.pen.undo()
+        drawn.editor.undo()
     drawn.refresh()
     assert rows(drawn, "fault")[0][3].value == "F1"
     assert drawn.pane.layer.strokes[0]["colour"] != "#123456"
@@ -147,7 +147,7 @@ def test_horizons_snap_where_that_is_asked_for():
     assert len(piece) > 3
     assert abs(np.interp(piece[:, 0], *bed.T) - piece[:, 1]).max() < case.section.dz
     picker.snap = "off"
-    picker.pen.deselect()
+    picker.editor.deselect()
     draw(picker.pane, tuple(bed[3] + (0, 80)), tuple(bed[30] + (0, 80)))
     assert len(picker.interpretation.horizons[1].pieces[0]) == 2
 

@@ -7,10 +7,10 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
-from seiswidgets.io import writing
-from seiswidgets.io.autosave import found, numbered
+from seiswidgets.io import files
+from seiswidgets.io.session.autosave import found, numbered
 from seiswidgets.widgets.app import RestorationApp
-from seiswidgets.widgets.files import sessionbar
+from seiswidgets.widgets.files import session_bar
 from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
 
 LONG = 60
@@ -42,7 +42,7 @@ def new_app(section):
 @pytest.fixture
 def quick(monkeypatch):
     """Edits are saved, and saving is tried again, after no time worth waiting for."""
-    monkeypatch.setattr(sessionbar, "Autosave", partial(sessionbar.Autosave, behind=0.01, again=0.01))
+    monkeypatch.setattr(session_bar, "Autosave", partial(session_bar.Autosave, behind=0.01, again=0.01))
 
 
 @pytest.fixture
@@ -60,7 +60,7 @@ def full_disk(monkeypatch):
             raise OSError(28, "No space left on device")
         replace(one, other)
 
-    monkeypatch.setattr(writing.os, "replace", replaced)
+    monkeypatch.setattr(files.os, "replace", replaced)
     return full
 
 
@@ -73,7 +73,7 @@ def wait_for(condition, seconds=20):
 
 def draw_fault(app, points=FAULT):
     app.picker.mode = "fault"
-    app.picker.pen.deselect()
+    app.picker.editor.deselect()
     draw(app.panes.original, *points)
 
 
@@ -103,8 +103,8 @@ def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
     assert not numbered(path)
     draw_fault(app)
     wait_for(lambda: names(path) == ["F1"])
-    app.picker.pen.recolour("fault", "F1", "#123456")
-    app.picker.pen.show("fault", "F1", False)
+    app.picker.editor.recolour("fault", "F1", "#123456")
+    app.picker.editor.show("fault", "F1", False)
     app.picker.refresh()
     app.weights = sw.Weights(stitch=33.0)
     app.solving.spacing = 77.0
@@ -156,7 +156,7 @@ def test_lines_that_cannot_be_used_are_saved_too(new_app, path):
 def test_earlier_work_is_offered_and_opened(new_app, path, section):
     first = new_app(session=path)
     draw_fault(first)
-    first.picker.pen.recolour("fault", "F1", "#123456")
+    first.picker.editor.recolour("fault", "F1", "#123456")
     first.picker.refresh()
     first.weights = sw.Weights(stitch=33.0)
     first.close()

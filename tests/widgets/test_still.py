@@ -5,10 +5,10 @@ import numpy as np
 from PIL import Image
 
 import seiswidgets as sw
-from seiswidgets.widgets.panes.overlay import Stroke
-from seiswidgets.widgets.panes.still import LEFT, SIZE, TOP
-from seiswidgets.widgets.restoring import linkedpanes
-from seiswidgets.widgets.restoring.linkedpanes import LinkedPanes
+from seiswidgets.interaction.overlay import Stroke
+from seiswidgets.widgets import linked_panes
+from seiswidgets.widgets.linked_panes import LinkedPanes
+from seiswidgets.widgets.section_view.still import LEFT, SIZE, TOP
 
 
 def test_both_panes_are_seen_with_their_lines():
@@ -30,7 +30,7 @@ def test_both_panes_are_seen_with_their_lines():
 def test_its_right_side_says_whether_it_is_restored(monkeypatch):
     case, titles = sw.synthetic.planar_fault(), []
     panes = LinkedPanes(case.section)
-    monkeypatch.setattr(linkedpanes, "still", lambda sides: titles.append([title for title, _ in sides]))
+    monkeypatch.setattr(linked_panes, "still", lambda sides: titles.append([title for title, _ in sides]))
     panes.still()
     panes.restoration = sw.Restoration(case.section, spacing=400).flatten(sw.Horizon([(100, 500), (3900, 500)]))
     panes.still()

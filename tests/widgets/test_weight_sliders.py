@@ -3,7 +3,7 @@ from dataclasses import fields, replace
 import pytest
 
 import seiswidgets as sw
-from seiswidgets.widgets.restoring.weightsliders import GROUPS
+from seiswidgets.widgets.panels.weight_sliders import GROUPS
 
 NAMES = [field.name for field in fields(sw.Weights)]
 

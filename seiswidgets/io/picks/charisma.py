@@ -5,15 +5,14 @@ from pathlib import Path
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
-from seiswidgets.io.picks.lines import Found
-from seiswidgets.io.picks.numbers import depth, number
+from seiswidgets.io.picks.lines import FileLines, depth, number
+from seiswidgets.io.picks.map_points import ExportOptions, Node, fault_lines, horizon_lines, rows
 
 MARK = re.compile(r"\b(?:INLINE|XLINE)\s*[:-]?")  # before a line's number, with or without blanks around it
 COLUMNS = ("inline", "crossline", "X", "Y")
 
 
-def read_horizons(path: Path, choices: Choices) -> Found:
+def read_horizons(path: Path, choices: ExportOptions) -> FileLines:
     """Horizons as "Charisma 3D interpretation lines": INLINE : n XLINE : n X Y Z [name], between blanks.
 
     A horizon without a name is called as the file. It is cut along one inline or one crossline, ``line="inline 362"``
@@ -21,7 +20,7 @@ def read_horizons(path: Path, choices: Choices) -> Found:
     there, and where the other number jumps, a piece ends.
     """
     nodes = (_horizon_node(path, place, row) for place, row in rows(read_text(path)))
-    return Found(horizon_lines(path, nodes, choices))
+    return FileLines(horizon_lines(path, nodes, choices))
 
 
 def _horizon_node(path, place, row):
@@ -35,14 +34,14 @@ def _horizon_node(path, place, row):
     return _node(path, place, values, " ".join(name), "")
 
 
-def read_faults(path: Path, choices: Choices) -> Found:
+def read_faults(path: Path, choices: ExportOptions) -> FileLines:
     """Faults as "Charisma fault sticks": INLINE- inline crossline X Y Z [fault] stick, between blanks.
 
     The fault's name may have blanks in it; without one it is called as the file. Sticks are taken from one inline or
     crossline, as for horizons.
     """
     nodes = (_fault_node(path, place, row) for place, row in rows(read_text(path)))
-    return Found(fault_lines(path, nodes, choices))
+    return FileLines(fault_lines(path, nodes, choices))
 
 
 def _fault_node(path, place, row):

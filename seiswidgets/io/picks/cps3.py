@@ -6,24 +6,23 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
-from seiswidgets.io.picks.lines import Found
-from seiswidgets.io.picks.numbers import depth, number
+from seiswidgets.io.picks.lines import FileLines, depth, number
+from seiswidgets.io.picks.map_points import ExportOptions, Node, fault_lines, horizon_lines, rows
 
 HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written, nothing that places a pick
 
 
-def read_horizons(path: Path, choices: Choices) -> Found:
+def read_horizons(path: Path, choices: ExportOptions) -> FileLines:
     """A horizon as "CPS-3 lines": a row ``->`` before each piece, then a row X Y Z a point.
 
     Rows of a header begin with FF or FS. The horizon is called as the file; what stands behind the arrow is not used.
     """
-    return Found(horizon_lines(path, _nodes(path), choices))
+    return FileLines(horizon_lines(path, _nodes(path), choices))
 
 
-def read_faults(path: Path, choices: Choices) -> Found:
+def read_faults(path: Path, choices: ExportOptions) -> FileLines:
     """Faults as "CPS-3 lines": as for horizons, each piece a fault, called as the file, with a number if several."""
-    return Found(fault_lines(path, _nodes(path), choices))
+    return FileLines(fault_lines(path, _nodes(path), choices))
 
 
 def _nodes(path):

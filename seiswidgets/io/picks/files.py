@@ -5,13 +5,12 @@ import os
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import METRES, Section
-from seiswidgets.io.arguments import checked_kind
+from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io.document import LARGEST_OURS, check_size, shortened
-from seiswidgets.io.paths import user_path
+from seiswidgets.io.files import user_path, write_whole
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
-from seiswidgets.io.picks.exports import Along, Choices
-from seiswidgets.io.picks.lines import Found, Line, in_section_units, interpretation, without_single_points
-from seiswidgets.io.writing import write_whole
+from seiswidgets.io.picks.lines import FileLines, PickLine, in_section_units, interpretation, without_single_points
+from seiswidgets.io.picks.map_points import Along, ExportOptions
 
 OURS = {"geojson": geojson, "csv": table}
 EXPORTS = {
@@ -85,11 +84,11 @@ def read_picks(
     else:
         here = METRES[section.x_unit]
         start = section.x0 * here / METRES.get(x_unit, here)  # in the file's unit, as all that it gives
-        found = EXPORTS[chosen](path, Choices(line, along, start))
+        found = EXPORTS[chosen](path, ExportOptions(line, along, start))
         lines = without_single_points(path, found.lines)
         if not z_up:
             _check_sign(path, lines, section)
-    found = Found(
+    found = FileLines(
         _turned(lines) if z_up else lines,
         _unit(path, "x_unit", found.x_unit, x_unit),
         _unit(path, "z_unit", found.z_unit, z_unit),
@@ -157,7 +156,7 @@ def _unit(path, axis, stated, given):
 
 def _turned(lines):
     """The lines with z down."""
-    return tuple(Line(line.kind, line.name, tuple((x, -z) for x, z in line.points), line.place) for line in lines)
+    return tuple(PickLine(line.kind, line.name, tuple((x, -z) for x, z in line.points), line.place) for line in lines)
 
 
 def _check_sign(path, lines, section):

@@ -5,14 +5,14 @@ from pathlib import Path
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.io.document import Entry, json_text, read_json
-from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
+from seiswidgets.io.picks.lines import FAULT, HORIZON, FileLines, PickLine
 
 MARK = "seiswidgets_picks"  # a foreign member, as RFC 7946 allows
 VERSION = 1
 GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}
 
 
-def read(path: Path) -> Found:
+def read(path: Path) -> FileLines:
     """Lines of a FeatureCollection whose member ``seiswidgets_picks`` holds version, x_unit and z_unit.
 
     A fault is a LineString, a horizon a MultiLineString of its pieces; ``properties`` hold kind and name. Positions
@@ -27,7 +27,7 @@ def read(path: Path) -> Found:
     if (version := mark["version"].number()) > VERSION:
         raise DataError(f"{path} is in version {version:g} of our GeoJSON, this is for {VERSION}; update seiswidgets")
     lines = [line for feature in document["features"].items() for line in _lines(feature)]
-    return Found(tuple(lines), mark["x_unit"].text(), mark["z_unit"].text())
+    return FileLines(tuple(lines), mark["x_unit"].text(), mark["z_unit"].text())
 
 
 def _lines(feature: Entry):
@@ -42,7 +42,7 @@ def _lines(feature: Entry):
     pieces = [drawn] if kind == FAULT else list(drawn.items())
     if not pieces:
         raise drawn.error("a list of pieces")
-    return [Line(kind, name, piece.points(), piece.place) for piece in pieces]
+    return [PickLine(kind, name, piece.points(), piece.place) for piece in pieces]
 
 
 def text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:

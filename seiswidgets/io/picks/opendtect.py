@@ -7,15 +7,14 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.exports import Choices, Node, fault_lines, horizon_lines, rows
-from seiswidgets.io.picks.lines import Found
-from seiswidgets.io.picks.numbers import depth, number
+from seiswidgets.io.picks.lines import FileLines, depth, number
+from seiswidgets.io.picks.map_points import ExportOptions, Node, fault_lines, horizon_lines, rows
 
 HEADER = 4000  # characters, in which a header is looked for
 QUOTED = re.compile(r'\s*"([^"]*)"')
 
 
-def read_horizons(path: Path, choices: Choices) -> Found:
+def read_horizons(path: Path, choices: ExportOptions) -> FileLines:
     """2-D horizons (Export > Horizons > ASCII 2D): ["horizon"] ["line"] X Y trace shot-point Z, between blanks.
 
     Names stand in double quotes. With both it is horizon, then line; with one it is the line, unless the header names
@@ -24,10 +23,10 @@ def read_horizons(path: Path, choices: Choices) -> Found:
     """
     text = read_text(path)
     header = " ".join(row for row in text[:HEADER].splitlines() if row.lstrip().startswith("#"))
-    horizon_alone = "Horizon Name" in header and not re.search("Line name", header, re.IGNORECASE)
+    horizon_alone = "Horizon Name" in header and not re.search("PickLine name", header, re.IGNORECASE)
     nodes = (_horizon_node(path, place, row, horizon_alone) for place, row in rows(text))
     unit = re.search(r"\bZ \((\w+)\)", header)
-    return Found(horizon_lines(path, nodes, choices), z_unit=unit and unit[1])
+    return FileLines(horizon_lines(path, nodes, choices), z_unit=unit and unit[1])
 
 
 def _horizon_node(path, place, row, horizon_alone):
@@ -54,14 +53,14 @@ def _names(row):
     return names, row[end:]
 
 
-def read_faults(path: Path, choices: Choices) -> Found:
+def read_faults(path: Path, choices: ExportOptions) -> FileLines:
     """Faults and fault stick sets (Export > Faults): ["fault"] X Y Z stick node [line], between tabs.
 
     Stick and node index must have been chosen for the export, and X/Y rather than inline and crossline, unless
     ``along`` is "x" or "y" for these. A fault without a name is called as the file.
     """
     nodes = (_fault_node(path, place, row) for place, row in rows(read_text(path)))
-    return Found(fault_lines(path, nodes, choices))
+    return FileLines(fault_lines(path, nodes, choices))
 
 
 def _fault_node(path, place, row):

@@ -8,13 +8,12 @@ from pathlib import Path
 from seiswidgets.errors import DataError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.io.document import LARGEST_OURS, lines, read_text
-from seiswidgets.io.picks.lines import FAULT, HORIZON, Found, Line
-from seiswidgets.io.picks.numbers import number
+from seiswidgets.io.picks.lines import FAULT, HORIZON, FileLines, PickLine, number
 
 COLUMNS = ("kind", "name", "piece", "x", "z")
 
 
-def read(path: Path) -> Found:
+def read(path: Path) -> FileLines:
     """Lines of a CSV file whose first row names at least the columns kind, name, piece, x and z, in any order.
 
     The units stand behind x and z, as in ``x (m)``. Rows of the same kind, name and piece make a line, in their order.
@@ -36,8 +35,8 @@ def read(path: Path) -> Found:
             raise DataError(f"{path}: {place}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
         point = tuple(number(path, place, column, row[columns[column]]) for column in ("x", "z"))
         drawn.setdefault((kind, name, piece), (place, []))[1].append(point)
-    found = tuple(Line(kind, name, tuple(points), place) for (kind, name, _), (place, points) in drawn.items())
-    return Found(found, units["x"], units["z"])
+    found = tuple(PickLine(kind, name, tuple(points), place) for (kind, name, _), (place, points) in drawn.items())
+    return FileLines(found, units["x"], units["z"])
 
 
 def _rows(path):

@@ -3,7 +3,7 @@
 import re
 
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.session import Session
+from seiswidgets.io.session.session import Session
 
 LABELS = {
     "along": "x comes from",

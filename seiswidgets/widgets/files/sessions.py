@@ -3,11 +3,11 @@
 from pathlib import Path
 
 from seiswidgets.geology.section import Section
-from seiswidgets.io.savedpicks import SavedPick
-from seiswidgets.io.sectionbeside import SessionWithSection, source_beside
-from seiswidgets.io.session import Session
-from seiswidgets.io.sources import SectionSource
-from seiswidgets.widgets.picking.drawing import FAULT, HORIZON, Drawing
+from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing
+from seiswidgets.io.session.saved_picks import SavedPick
+from seiswidgets.io.session.section_beside import SessionWithSection, source_beside
+from seiswidgets.io.session.session import Session
+from seiswidgets.io.session.sources import SectionSource
 
 
 def session_of(

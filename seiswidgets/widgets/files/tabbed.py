@@ -4,11 +4,11 @@ from functools import cached_property
 
 from traitlets import dlink, link
 
-from seiswidgets.widgets.files.filepanel import FilePanel
-from seiswidgets.widgets.restoring.controls import DisplayControls
-from seiswidgets.widgets.restoring.pages import Pages
-from seiswidgets.widgets.restoring.steplist import StepList
-from seiswidgets.widgets.restoring.weightsliders import WeightSliders
+from seiswidgets.widgets.files.file_panel import FilePanel
+from seiswidgets.widgets.panels.controls import DisplayControls
+from seiswidgets.widgets.panels.pages import Pages
+from seiswidgets.widgets.panels.step_list import StepList
+from seiswidgets.widgets.panels.weight_sliders import WeightSliders
 
 
 class Tabbed:

@@ -7,10 +7,10 @@ from pathlib import Path
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.io.sources import SectionSource
-from seiswidgets.widgets.panes.canvas import LOCK
-from seiswidgets.widgets.picking.drawing import Drawing
-from seiswidgets.widgets.restoring.frame import Frame
+from seiswidgets.interaction.drawing import Drawing
+from seiswidgets.io.session.sources import SectionSource
+from seiswidgets.widgets.section_view.canvas import LOCK
+from seiswidgets.widgets.snapshot import Snapshot
 
 
 class Turning:
@@ -79,7 +79,7 @@ class Turning:
                 pane.frame = None
                 pane.fit()
             self.source, restoration = source, Restoration(section)
-            self._draw(Frame.of(restoration), restoration)
+            self._draw(Snapshot.of(restoration), restoration)
             self.solving.take(section)
             self.picker.begin(drawing)
 

@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 import anywidget
 from traitlets import Instance, Unicode
 
-from seiswidgets.widgets.files.filenames import file_name
+from seiswidgets.widgets.files.file_names import file_name
 
 MOST = 4 * 2**30  # bytes
 PART = ".part"  # what a file is called until it came whole: no other file can be called so

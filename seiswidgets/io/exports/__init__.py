@@ -1,0 +1,1 @@
+"""Results written to files: sections, meshes, reports and labelled arrays."""

@@ -1,0 +1,1 @@
+"""Sections from images, NumPy arrays and text matrices."""

@@ -1,0 +1,1 @@
+"""SEG-Y files: layout, lines, reading and writing."""

@@ -1,0 +1,1 @@
+"""A pane that shows a section, and its browser side."""

@@ -1,0 +1,151 @@
+"""Faults as they are cut: tidied, joined to what they nearly reach, and told apart."""
+
+import numpy as np
+import pytest
+import shapely
+from shapely import LineString
+
+import seiswidgets as sw
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_lines import MERGED, REACH, fault_lines, merged, with_points
+
+SECTION = sw.Section(np.ones((11, 21), np.float32), dx=100, dz=100)
+SPACING = 100.0
+GROUND = RestorationDomain(shapely.box(0, 0, 2000, 1000), SECTION, SPACING)
+NEAR, FAR = 0.9 * REACH * SPACING, 1.1 * REACH * SPACING
+
+
+def lines(**faults):
+    return {name: shapely.get_coordinates(line) for name, line in fault_lines(arrays(faults), GROUND).items()}
+
+
+def arrays(faults):
+    return {name: np.array(points, float) for name, points in faults.items()}
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+def test_tips_near_the_border_meet_it(turned):
+    drawn = [(800, NEAR), (900, 500), (1000, 1000 - NEAR)][::turned]
+    line = lines(F=drawn)["F"][::turned]
+    np.testing.assert_allclose(line, [(800, 0), *drawn[::turned], (1000, 1000)])
+
+
+def test_tips_far_from_the_border_stay():
+    drawn = [(800, FAR), (1000, 1000 - FAR)]
+    np.testing.assert_array_equal(lines(F=drawn)["F"], drawn)
+
+
+def test_faults_that_reach_the_border_exactly_stay():
+    drawn = [(800, 0), (1000, 1000)]
+    np.testing.assert_array_equal(lines(F=drawn)["F"], drawn)
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+@pytest.mark.parametrize("order", [1, -1])
+def test_tips_near_another_fault_meet_it(turned, order):
+    main, branch = [(1000, 0), (1000, 1000)], [(500, 0), (1000 - NEAR, 500)][::turned]
+    found = lines(**dict([("main", main), ("branch", branch)][::order]))
+    np.testing.assert_array_equal(found["main"], main)
+    np.testing.assert_allclose(found["branch"][::turned], [(500, 0), (1000 - NEAR, 500), (1000, 500)])
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+@pytest.mark.parametrize("order", [1, -1])
+def test_overshoots_beyond_another_fault_are_trimmed(turned, order):
+    main, branch = [(1000, 0), (1000, 1000)], [(500, 500), (1000 + NEAR, 500)][::turned]
+    found = lines(**dict([("main", main), ("branch", branch)][::order]))
+    np.testing.assert_allclose(found["branch"][::turned], [(500, 500), (1000, 500)])
+
+
+def test_faults_that_cross_stay_whole():
+    one, other = [(500, 0), (1500, 1000)], [(1500, 0), (500, 1000)]
+    found = lines(one=one, other=other)
+    np.testing.assert_array_equal(found["one"], one)
+    np.testing.assert_array_equal(found["other"], other)
+
+
+def test_two_tips_that_nearly_meet_are_joined_once():
+    found = lines(one=[(300, 500), (990, 500)], other=[(1010, 500), (1700, 500)])
+    gap = LineString(found["one"]).distance(LineString(found["other"]))
+    assert gap == 0
+    assert LineString(found["one"]).intersection(LineString(found["other"])).length == 0
+
+
+@pytest.mark.parametrize("count", [2, 3, 10])
+def test_repeated_points_are_merged(count):
+    rng = np.random.default_rng(count)
+    corners = np.array([(800.0, 0), (900, 500), (1000, 1000)])
+    crowd = np.repeat(corners, count, axis=0)
+    crowd[1::count] += rng.uniform(-0.4, 0.4, (3, 2)) * MERGED * SPACING
+    crowd[count - 1 :: count] = corners
+    np.testing.assert_array_equal(merged(crowd, SPACING)[[0, -1]], corners[[0, -1]])
+    assert len(merged(crowd, SPACING)) == 3
+    np.testing.assert_allclose(merged(crowd, SPACING), corners, atol=MERGED * SPACING)
+
+
+def test_points_farther_apart_stay():
+    points = np.array([(0, 0), (0, 1.1), (0, 2.2), (0, 3.3)]) * MERGED * SPACING
+    np.testing.assert_array_equal(merged(points, SPACING), points)
+
+
+@pytest.mark.parametrize("length", [0.5, 50, 100])
+def test_faults_no_longer_than_the_spacing(length):
+    with pytest.raises(
+        sw.PickError, match=r"fault 'F' near x=800 m, z=300 m .* no longer than the mesh spacing of 100 m"
+    ):
+        lines(F=[(800, 300), (800, 300 + length)])
+
+
+def test_faults_a_little_longer_than_the_spacing():
+    assert len(lines(F=[(800, 300), (800, 401)])["F"]) == 2
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+def test_faults_that_turn_back(turned):
+    spike = [(700, 0), (790, 450), (780, 395), (791, 455), (900, 1000)]
+    with pytest.raises(sw.PickError, match=r"fault 'F' turns back on itself near x=7[89]\d m, z=(450|395) m; leave"):
+        lines(F=spike[::turned])
+
+
+def test_a_zigzag_that_does_not():
+    zigzag = [(700, 0), (790, 450), (740, 390), (800, 500), (900, 1000)]
+    np.testing.assert_array_equal(lines(F=zigzag)["F"], zigzag)
+
+
+@pytest.mark.parametrize("offset", [0, 1, 4])
+@pytest.mark.parametrize("turned", [1, -1])
+def test_faults_on_top_of_each_other(offset, turned):
+    one, other = [(800, 0), (800, 1000)], [(800 + offset, 200), (800 + offset, 700)][::turned]
+    with pytest.raises(sw.PickError, match=r"faults 'one' and 'other' lie on top of each other near x=80\d m, z=450 m"):
+        lines(one=one, other=other)
+
+
+def test_faults_side_by_side():
+    one, other = [(800, 0), (800, 1000)], [(820, 200), (820, 700)]
+    assert set(lines(one=one, other=other)) == {"one", "other"}
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+def test_with_points(turned):
+    line = LineString([(0, 0), (10, 0), (10, 10)][::turned])
+    places = [(10, 5), (5, 0), (10, 0), (0, 0), (10, 5), (10, 7)]
+    found = shapely.get_coordinates(with_points(line, places))
+    np.testing.assert_allclose(found[::turned], [(0, 0), (5, 0), (10, 0), (10, 5), (10, 7), (10, 10)])
+
+
+@pytest.mark.parametrize(
+    "tips",
+    [(0, 1000), (NEAR, 1000), (FAR, 1000), (1e-9, 1000), (0, 1000 - 1e-7), (5, 995)],
+)
+def test_a_section_comes_apart_where_its_fault_meets_the_border(tips):
+    fault = sw.Fault([(900, tips[0]), (1100, tips[1])])
+    horizon = sw.Horizon([(0, 400), (980, 400)], [(1000, 500), (2000, 500)])
+    start = sw.Restoration(SECTION, spacing=SPACING)
+    if tips[0] == FAR:
+        with pytest.raises(sw.PickError, match="the faults cut no block off"):
+            start.unfault(fault, horizon, fixed=(100, 100))
+        return
+    stage = start.unfault(fault, horizon, fixed=(100, 100)).stages[0]
+    still = np.hypot(*(stage.vertices - stage.mesh.vertices).T) == 0
+    assert 0.3 < still.mean() < 0.7  # one block of two
+    assert stage.report.converged
