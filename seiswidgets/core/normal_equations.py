@@ -180,7 +180,7 @@ class NormalEquations:
         Parameters
         ----------
         damping : float
-            What is added to the diagonal, in units of its mean.
+            What is added to the diagonal, in units of its median: a few heavy rows must not stiffen soft rock elsewhere.
         bending : float, optional
             The share that is taken of the second derivatives of what is shortened. With 1, and all of those of what
             is stretched, the step is Newton's; with less the matrix is more surely positive definite. Without it the
@@ -195,7 +195,8 @@ class NormalEquations:
             for gram, place, (data, factor) in self._bent:
                 convex = np.where(factor > 0, factor, bending * factor)
                 numbers += self._at_places(place, gram.products(data, convex))
-        numbers[self._diagonal] += damping * self._numbers[self._diagonal].sum() / max(self.size, 1)
+        if self.size:
+            numbers[self._diagonal] += damping * np.median(self._numbers[self._diagonal])
         self.factorisations += 1
         self._cholesky.factorise(numbers)
         step = np.zeros(len(self._unknown))

@@ -11,7 +11,7 @@ from seiswidgets.core.normal_equations import NormalEquations
 from seiswidgets.core.terms import MOVING
 from seiswidgets.errors import Cancelled
 
-LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the mean diagonal; the least only tames motions that cost nothing
+LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the median diagonal; the least only tames motions that cost nothing
 LEAST_BENDING = 0.1  # share of the second derivatives that is worth a try
 HALVINGS = 5
 ROUNDING = 1e-11  # of an energy: changes below this are noise

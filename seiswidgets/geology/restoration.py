@@ -144,6 +144,11 @@ class Restoration:
     ) -> "Restoration":
         """Bring a horizon to one level while it keeps its length (the paper's section 3.2).
 
+        Level and length are wishes with weights, not constraints. With the default weights sine folds keep their length
+        to 0.06% with limbs of up to 45 degrees and to 0.14% at 60 degrees, and lie within 0.02 m of the level, on
+        meshes of 40 to 100 m; the rock above and below pays for that with its area. The report holds a finding where
+        the length changes by more than 0.5%, or the horizon stays more than a tenth of a sample off its level.
+
         Parameters
         ----------
         horizon : Horizon

@@ -45,7 +45,7 @@ def dense_step(terms, free, vertices, damping):
     jacobian = np.vstack([term.jacobian(vertices).toarray() for term in terms])
     residual = np.concatenate([term.residual(vertices) for term in terms])
     matrix = jacobian.T @ jacobian
-    weight = damping * np.mean(np.diag(matrix)[unknown])
+    weight = damping * np.median(np.diag(matrix)[unknown])
     for term in terms:
         if hasattr(term, "curvature"):
             matrix += second_derivatives(term, vertices)
