@@ -278,7 +278,7 @@ def test_a_warm_start_is_near_the_answer_at_once_though_the_outline_has_changed(
     cold = unfaulted.flatten(dragged, max_iterations=2).stages[1]
     off, off_cold = (np.abs(stage.vertices - settled.vertices).max() for stage in (quick, cold))
     assert off < 0.1 * case.section.dz
-    assert off < 0.1 * off_cold
+    assert off < 0.3 * off_cold
 
 
 def test_the_report_is_made_when_it_is_read(fold):
@@ -306,12 +306,13 @@ def test_contradicting_horizons_are_named():
     crossed = [sw.Horizon(left, lower_right, name="A"), sw.Horizon(lower_left, right, name="B")]
     stage = sw.Restoration(case.section, spacing=100).unfault(picks.faults, crossed).stages[0]
     assert (stage.area_ratio > 0).all()
-    assert any("contact at fault F1" in text for text in stage.report.unmet)
-    assert "gave way" in str(stage.report)
+    assert {"contact"} <= {finding.kind for finding in stage.report.findings}
+    assert "the sides of fault F1" in str(stage.report)
     soft = sw.Restoration(case.section, spacing=100).unfault(
         picks.faults, crossed, weights=sw.Weights(stitch=1), max_iterations=60
     )
-    assert any("horizon A at fault F1" in text and "apart" in text for text in soft.stages[0].report.unmet)
+    texts = [finding.text for finding in soft.stages[0].report.findings if finding.kind == "cut-off"]
+    assert any("horizon A at fault F1" in text and "apart" in text for text in texts)
 
 
 def test_the_fixed_point_is_there_for_comparison():
