@@ -72,7 +72,7 @@ def _carried(before, after, point):
 def test_the_maps_do_what_the_restoration_does(fold):
     section = fold.original
     restored = replace(fold, original=replace(section, z_unit="ms", velocity=2500.0, dz=section.dz / 1.25))
-    points = random_points(restored.original, 2000)
+    points = random_points(restored.original, 200)
     there = restored.to_restored(points)
     np.testing.assert_allclose(carried(restored.maps_to_restored, points), there, atol=1e-6)
     np.testing.assert_allclose(carried(restored.maps_to_original, there), restored.to_original(there), atol=1e-6)

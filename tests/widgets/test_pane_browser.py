@@ -193,7 +193,7 @@ def test_a_page_that_is_reloaded_shows_the_same(notebook):
     opened.until("not pane.view.is_fitted and seen[-1] == 'rest'")
     before, view = still(opened), opened.ask(STILL)
     assert before["sum"] != plain["sum"]
-    shoot_in_both_themes(opened, "picked-zoomed")
+    shoot(opened, "picked-zoomed")
     lines = drawn(opened)
     opened.command("docmanager:save")
     opened.reload()
