@@ -78,6 +78,17 @@ def test_dipping_beds_are_extended_along_their_dip(throw, dip):
     assert sw.throw(fault(), short) == pytest.approx(sw.throw(fault(), exact)) == pytest.approx(throw)
 
 
+@NORMAL_AND_REVERSE
+@MIRRORED
+def test_a_bent_piece_is_extended_along_its_last_tenth(throw, mirrored):
+    left, right = on_fault(400), on_fault(400 + throw)
+    footwall = [(0, 100), (left - 300, 400), (left - 60, 400)]
+    hanging_wall = [(right + 60, 400 + throw), (right + 400, 400 + throw), (WIDTH, 600 + throw)]
+    bed = sw.Horizon(*(seen(piece, mirrored) for piece in (footwall, hanging_wall)))
+    assert sw.throw(fault(mirrored), bed) == pytest.approx(throw)
+    assert sw.throw(fault(mirrored), sw.Horizon(*(piece[::-1] for piece in bed.pieces))) == pytest.approx(throw)
+
+
 def test_a_piece_is_extended_by_a_fifth_of_its_length_at_most():
     end = on_fault(400)
     length = end / 1.2  # of a piece that ends where a fifth of it takes it just to the fault
