@@ -60,9 +60,19 @@ def read_json(path: Path) -> "Entry":
     Raises
     ------
     DataError
-        As for `read_text`, or if it is not JSON; NaN and Infinity are not.
+        As for `read_text` and `parse_json`.
     """
-    text = read_text(path, LARGEST_OURS)
+    return parse_json(read_text(path, LARGEST_OURS), path)
+
+
+def parse_json(text: str, path: Path) -> "Entry":
+    """What a JSON text holds; errors name the path as the place that it comes from.
+
+    Raises
+    ------
+    DataError
+        If it is not JSON; NaN and Infinity are not.
+    """
     try:
         return Entry(json.loads(text, parse_constant=_refused), path)
     except RecursionError:

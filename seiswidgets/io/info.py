@@ -30,7 +30,9 @@ class SectionInfo:
     header : str
         SEG-Y's textual header, decoded; lines of a stranger, to be escaped wherever they are shown.
     reasons : tuple of str
-        Why a spacing or an origin cannot be told: positions that are missing or uneven, say.
+        Why a spacing or an origin cannot be told: positions that are missing, uneven or implausible, say.
+    notes : tuple of str
+        What was read in another way than the headers claim, or is unusual.
     """
 
     path: Path
@@ -47,6 +49,7 @@ class SectionInfo:
     crosslines: tuple[int, int, int] | None = None
     header: str = ""
     reasons: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def middle(self, name: str) -> int | None:
         """The number of the inline or the crossline in the middle of a volume; None where there is no telling."""

@@ -5,8 +5,10 @@ import pytest
 from ipywidgets import HTML
 
 import seiswidgets as sw
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.widgets.panels.controls import SolverControls
 from seiswidgets.widgets.panels.pages import Pages
+from seiswidgets.widgets.workspace import Workspace
 
 
 def test_a_page_is_made_when_it_is_first_looked_at_and_once():
@@ -27,7 +29,7 @@ def test_a_page_is_made_when_it_is_first_looked_at_and_once():
 
 
 def test_only_a_hand_moves_the_mesh_spacing():
-    controls = SolverControls(sw.synthetic.faulted_fold().section)
+    controls = SolverControls(Workspace(sw.synthetic.faulted_fold().section))
     slider, middle = controls._slider, controls._slider.value
     slider.value = middle * 10 ** (0.5 * slider.step)  # as a page rounds what it is given
     assert controls.spacing is None
@@ -40,9 +42,10 @@ def test_only_a_hand_moves_the_mesh_spacing():
 
 def test_the_mesh_spacing_suits_sections_of_any_size():
     small, large = (sw.Section(np.zeros((50, 50)), spacing, spacing) for spacing in (0.1, 1000.0))
-    controls = SolverControls(small)
+    workspace = Workspace(small)
+    controls = SolverControls(workspace)
     for section in (large, small):
-        controls.take(section)
+        workspace.open(section, Drawing())
         slider, usual = controls._slider, sw.Restoration(section).domain.spacing
         np.testing.assert_allclose([10**slider.min, slider.value, 10**slider.max], [usual / 4, usual, 4 * usual])
         assert controls.spacing is None

@@ -1,68 +1,21 @@
-"""Which traces of a SEG-Y file make a line, and how far apart they stand.
+"""Traces of a SEG-Y file that make a line: all of them, or a line of a volume, told by inline and crossline numbers.
 
-Numbers and positions come from the trace headers, at bytes that the user may choose. They are read a window at a time.
+The numbers come from the trace headers, at bytes that the user may choose. They are read a window at a time.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from seiswidgets.errors import DataError, SettingError
-from seiswidgets.io.files import required
+from seiswidgets.errors import SettingError
 from seiswidgets.io.options import OpenOptions, Progress, tell
-from seiswidgets.io.segy.layout import Layout
+from seiswidgets.io.segy.traces import TraceHeaders
 
-BYTES = {"inline": 189, "crossline": 193, "x": 181, "y": 185, "scalar": 71}  # as revision 1 of the standard has them
 OTHER = {"inline": "crossline", "crossline": "inline"}
-PLACES = ((181, 185), (73, 77), (81, 85))  # of the midpoint; source and receiver, where old lines have their positions
+SAMPLED = 50_000  # headers that are looked at to find one of its lines
+FILLED = 0.25  # of a grid: the least that an unsorted volume is believed to fill
 WINDOW = 65_536  # headers read at a time
 COUNTED = 1_000_000  # headers that are looked at to tell which lines a volume holds that is no full grid
-EVEN = 0.05  # of the spacing: what a step may differ from it, beside the rounding of the positions
-SCALARS = (0, 1, 10, 100, 1000, 10_000)  # of positions, or below 0; 0 is taken for 1
-DEGREES, CLOSE = (360, 90), 0.005  # positions within these, and no farther apart, cannot be metres or feet
-STRAIGHT = 0.01  # of its length: by how much a line may be longer than the way from end to end
-
-
-@dataclass(frozen=True)
-class TraceHeaders:
-    """The trace headers of an open file.
-
-    Parameters
-    ----------
-    layout : Layout
-    file : segyio.SegyFile
-    bytes : dict of str to int
-        Where each number stands, by name.
-    """
-
-    layout: Layout
-    file: object
-    bytes: Mapping[str, int]
-
-    def __call__(self, name: str | int, traces) -> np.ndarray:
-        """A number of each of some traces (an array or a slice); shape (n,)."""
-        return self.file.attributes(self.bytes.get(name, name))[traces].astype(np.int64)
-
-
-def checked_bytes(layout: Layout, chosen: Mapping[str, int] | None) -> dict[str, int]:
-    """The bytes of the trace header at which each number stands, the user's choice over the standard's.
-
-    Raises
-    ------
-    SettingError
-        If a name or a byte is not one of SEG-Y's.
-    """
-    known = [int(field) for field in required("segyio", f"to read {layout.path}").TraceField.enums()]
-    for name, byte in (chosen or {}).items():
-        if name not in BYTES:
-            raise SettingError(f"header_bytes= takes {', '.join(BYTES)}, but has {name!r}")
-        if byte not in known:
-            raise SettingError(
-                f"header_bytes= says that {name} stands at byte {byte!r} of the trace header, where no number starts; "
-                "usual are 9, 21, 189, 193 for the lines' numbers, and 73, 77, 81, 85, 181, 185 for positions"
-            )
-    return BYTES | {name: int(byte) for name, byte in (chosen or {}).items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,14 +71,40 @@ def lines_of_volume(headers: TraceHeaders) -> dict[str, tuple[int, int, int]]:
     grid = volume(headers)
     if grid is not None:
         return {name: grid.range(name) for name in OTHER}
-    count, (_, fast, length) = headers.layout.traces, first_line(headers)
-    if length == count:
+    found = _counted(headers)
+    if not _cover_an_area(found["inline"], found["crossline"]):
         return {}
-    first, last, following = headers(fast, np.array([0, length - 1, length]))
-    if np.sign(last - first) == np.sign(following - last):  # it goes on, as a line does that crosses a grid
-        return {}
-    found = {name: np.unique(headers(name, slice(0, COUNTED))) for name in OTHER}
-    return {name: (int(numbers[0]), int(numbers[-1]), len(numbers)) for name, numbers in found.items()}
+    unique = {name: np.unique(numbers) for name, numbers in found.items()}
+    return {name: (int(numbers[0]), int(numbers[-1]), len(numbers)) for name, numbers in unique.items()}
+
+
+def _counted(headers, count=COUNTED):
+    return {name: headers(name, slice(0, count)) for name in OTHER}
+
+
+def _cover_an_area(inline, crossline):
+    """Whether traces lie side by side on a grid, as those of a volume: more of it than a line across it would meet.
+
+    Numbers that mean something else may be as many; those of a volume fill much of their grid, or are sorted.
+    """
+    counts = [len(np.unique(numbers)) for numbers in (inline, crossline)]
+    cells = len(np.unique((inline << 32) + (crossline & 0xFFFFFFFF)))
+    if min(counts) < 2 or cells <= sum(counts) - 1:
+        return False
+    is_sorted = any((steps >= 0).all() or (steps <= 0).all() for steps in map(np.diff, (inline, crossline)))
+    return is_sorted or cells >= FILLED * counts[0] * counts[1]
+
+
+def sample_line(headers: TraceHeaders) -> np.ndarray:
+    """Indices of the traces of one line of a volume: the first of a full grid, else the longest near its beginning."""
+    if volume(headers) is not None:
+        return np.arange(first_line(headers)[2])
+    lines = []
+    for name, numbers in (found := _counted(headers, SAMPLED)).items():
+        values, counts = np.unique(numbers, return_counts=True)
+        (traces,) = np.nonzero(numbers == values[np.argmax(counts)])
+        lines.append(traces[np.argsort(found[OTHER[name]][traces], kind="stable")])
+    return max(lines, key=len)
 
 
 def first_line(headers: TraceHeaders) -> tuple[str, str, int]:
@@ -216,79 +195,3 @@ def _searched(headers, name, number, progress):
 def _numbers_there(headers, name):
     first, last = headers(name, np.array([0, headers.layout.traces - 1]))
     return f"its first trace has {first} there, its last {last}"
-
-
-def spacing(headers: TraceHeaders, traces: np.ndarray) -> float:
-    """Distance between the traces of a line, from their positions, in their own unit; errors as for ``course``."""
-    return float(np.hypot(*np.diff(course(headers, traces), axis=0).T).sum()) / (len(traces) - 1)
-
-
-def course(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
-    """Where a line runs on the map, in its own unit: through the positions of its traces, shape (m, 2).
-
-    A straight line is given by its ends, since rounded positions make the way along them longer.
-
-    Raises
-    ------
-    DataError
-        If positions are missing, are angles, or are not evenly spaced.
-    """
-    _refuse_angles(headers, traces)
-    x, y, rounding = _positions(headers, traces)
-    steps = np.hypot(np.diff(x), np.diff(y))
-    if not steps.any():
-        raise DataError(_missing(headers, traces))
-    typical = float(np.median(steps))
-    if typical < CLOSE and np.abs(x).max() <= DEGREES[0] and np.abs(y).max() <= DEGREES[1]:
-        raise DataError(
-            f"{headers.layout.path} has positions {typical:.2g} apart, all within ±{DEGREES[0]} and ±{DEGREES[1]}, "
-            "which seem to be degrees, and are no distances then; say how far apart its traces are: dx="
-        )
-    off = np.abs(steps - typical)
-    if off.max() > EVEN * typical + 1.5 * rounding:  # both ends are rounded, in x and in y
-        raise DataError(_uneven(headers, traces, steps, int(np.argmax(off))))
-    chord = np.hypot(x[-1] - x[0], y[-1] - y[0])
-    places = np.column_stack([x, y])
-    return places[[0, -1]] if steps.sum() <= (1 + STRAIGHT) * chord else places
-
-
-def _uneven(headers, traces, steps, worst):
-    same = "" if steps.all() else "; some stand at the same place, as those of a gather before it is stacked do"
-    return (
-        f"{headers.layout.path} has unevenly spaced traces: most are {np.median(steps):g} apart, but traces "
-        f"{traces[worst]} and {traces[worst + 1]} (counted from 0) {steps[worst]:g}{same}. Choose another part, or a "
-        "line of a volume (inline=, crossline=, traces=), or say how far apart they shall count: dx="
-    )
-
-
-def _positions(headers, traces):
-    """Positions of traces, and what they are rounded to."""
-    scalar = headers("scalar", traces).astype(float)
-    other = scalar[~np.isin(np.abs(scalar), SCALARS)]
-    if len(other):
-        raise DataError(
-            f"{headers.layout.path} has {other[0]:g} as the scalar of its positions (byte {headers.bytes['scalar']} of "
-            "the trace header), which must be 1, 10, 100, 1000 or 10000, or one of these below 0. If it stands at "
-            "another byte, give header_bytes=; or say how far apart the traces are: dx="
-        )
-    factor = np.where(scalar < 0, -1 / np.where(scalar == 0, 1, scalar), np.where(scalar == 0, 1, scalar))
-    return headers("x", traces) * factor, headers("y", traces) * factor, float(factor.max())
-
-
-def _refuse_angles(headers, traces):
-    unit = int(headers(89, traces[:1])[0])
-    if unit in (2, 3, 4):
-        raise DataError(
-            f"{headers.layout.path} has positions in degrees or seconds of arc (bytes 89-90 of the trace header: "
-            f"{unit}), which are no distances; say how far apart its traces are: dx="
-        )
-
-
-def _missing(headers, traces):
-    x, y = headers.bytes["x"], headers.bytes["y"]
-    said = f"{headers.layout.path} has no positions of its traces: bytes {x} and {y} of all headers hold the same"
-    for other_x, other_y in PLACES:
-        if any(np.ptp(headers(byte, traces)) for byte in (other_x, other_y)):
-            others = f'header_bytes={{"x": {other_x}, "y": {other_y}}}'
-            return f"{said}. Others stand at bytes {other_x} and {other_y}: give {others}, or the distance dx="
-    return f"{said}. Say how far apart they are: dx="

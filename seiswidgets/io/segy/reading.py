@@ -7,11 +7,13 @@ import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
-from seiswidgets.io.files import required
 from seiswidgets.io.info import HEIGHT, SectionInfo
 from seiswidgets.io.options import OpenOptions, Progress, checked_size, section_of, tell
+from seiswidgets.io.segy.course import course, remarks, spacing
 from seiswidgets.io.segy.layout import layout
-from seiswidgets.io.segy.lines import TraceHeaders, checked_bytes, course, first_line, line, lines_of_volume, spacing
+from seiswidgets.io.segy.lines import line, lines_of_volume, sample_line
+from seiswidgets.io.segy.traces import TraceHeaders, checked_bytes
+from seiswidgets.io.segy.vertical import delay, interval
 
 BLOCK = 256  # traces between two reports of progress
 PREVIEWED = 10_000  # traces that a preview looks at, for their spacing
@@ -41,68 +43,31 @@ def open_segy(path: Path, choices: OpenOptions, progress: Progress | None) -> Se
 def trace_headers(path: Path, choices: OpenOptions):
     """The trace headers of a SEG-Y file, open for as long as the context lasts."""
     found = layout(path)
-    segyio = required("segyio", f"to read {path}")
-    positions = checked_bytes(found, choices.header_bytes)
-    try:
-        file = segyio.open(path, ignore_geometry=True, endian=found.endian)
-    except (OSError, RuntimeError, ValueError) as error:
-        raise DataError(f"{path} cannot be read as SEG-Y: {error}") from error
-    with file:
-        if (file.tracecount, len(file.samples)) != (found.traces, found.samples):
-            raise DataError(
-                f"{path} has headers that can be read in two ways ({found.traces} traces of {found.samples} samples, "
-                f"or {file.tracecount} of {len(file.samples)}); write it anew as revision 1 of SEG-Y"
-            )
-        yield TraceHeaders(found, file, positions)
+    positions = checked_bytes(choices.header_bytes)
+    with path.open("rb", buffering=0) as file:
+        yield TraceHeaders(found, file, positions, choices.x_unit or found.x_unit or "m")
 
 
 def _axes(headers, traces, choices, scale):
     """Spacing, origin and unit as the user chose, else as the headers say: z there times a scale."""
     return {
         "dx": spacing(headers, traces) if choices.dx is None else choices.dx,
-        "dz": scale * _interval(headers, traces) if choices.dz is None else choices.dz,
+        "dz": scale * interval(headers, traces) if choices.dz is None else choices.dz,
         "x0": choices.x0 or 0.0,
-        "z0": scale * _delay(headers, traces) if choices.z0 is None else choices.z0,
-        "x_unit": "ft" if headers.layout.feet else "m",
+        "z0": scale * delay(headers, traces) if choices.z0 is None else choices.z0,
+        "x_unit": headers.layout.x_unit or "m",
     }
-
-
-def _interval(headers, traces):
-    """Between samples, in milliseconds or metres, as the headers say in thousandths of it."""
-    path, general = headers.layout.path, headers.layout.interval
-    own = np.unique(headers(117, traces) & 0xFFFF)  # the standard has it signed, programs do not
-    said = [value for value in (general, *own.tolist()) if value]
-    if not said or np.ptp(said) >= 1:  # those of the traces are whole numbers, even where the general one is not
-        several = f"speaks of several sample intervals ({', '.join(f'{value:g}' for value in sorted(said)[:5])})"
-        what = several if said else "says no sample interval"
-        raise DataError(
-            f"{path} {what} (bytes 3217-3218 of the file, 117-118 of the trace headers); say the distance "
-            "between samples, in the unit of z: dz="
-        )
-    return said[0] / 1000
-
-
-def _delay(headers, traces):
-    """Of the first sample, in milliseconds or metres; bytes 109-110, and their scalar, 215-216."""
-    delay, scalar = headers(109, traces).astype(float), headers(215, traces[:1])[0]
-    delay *= -1 / scalar if scalar < 0 else scalar or 1
-    if np.ptp(delay):
-        raise DataError(
-            f"{headers.layout.path} has traces that start at different times or depths, from {delay.min():g} to "
-            f"{delay.max():g} (bytes 109-110 of the trace headers); say where they shall start, in the unit of z: z0="
-        )
-    return float(delay[0])
 
 
 def _samples(headers, traces, progress):
     """Amplitudes of some traces, as the smallest floats that hold each exactly; shape (nz, nx)."""
-    samples, file = headers.layout.samples, headers.file
-    kind = np.result_type(file.dtype, np.float32)
+    samples = headers.layout.samples
+    kind = np.result_type(headers.amplitudes(traces[0]).dtype, np.float32)
     checked_size(headers.layout.path, (samples, len(traces)), kind.itemsize)
     amplitude = np.empty((samples, len(traces)), kind)
     for start in range(0, len(traces), BLOCK):
         for place, trace in enumerate(traces[start : start + BLOCK], start):
-            amplitude[:, place] = file.trace.raw[int(trace)]
+            amplitude[:, place] = headers.amplitudes(trace)
         tell(progress, min(1.0, (start + BLOCK) / len(traces)))
     return amplitude
 
@@ -130,9 +95,10 @@ def preview_segy(path: Path, choices: OpenOptions) -> SectionInfo:
     """What a SEG-Y file holds; reads its headers alone, and of a volume only some."""
     with trace_headers(path, choices) as headers:
         found, lines = headers.layout, lines_of_volume(headers)
-        first = np.arange(min(PREVIEWED, first_line(headers)[2] if lines else found.traces))
-        measured = [_measured(measure, headers, first) for measure in (spacing, _interval, _delay)]
-    (dx, dz, z0), reasons = zip(*measured, strict=True)
+        first = (sample_line(headers) if lines else np.arange(min(PREVIEWED, found.traces)))[:PREVIEWED]
+        measured = [_measured(measure, headers, first) for measure in (spacing, interval, delay)]
+        (dx, dz, z0), reasons = zip(*measured, strict=True)
+        notes = found.notes if dx is None else (*found.notes, *remarks(headers, first, dx))
     return SectionInfo(
         path=path,
         kind="SEG-Y",
@@ -147,11 +113,12 @@ def preview_segy(path: Path, choices: OpenOptions) -> SectionInfo:
         dx=dx,
         dz=dz,
         z0=z0,
-        x_unit=None if dx is None else "ft" if found.feet else "m",
+        x_unit=None if dx is None else found.x_unit or "m",
         inlines=lines.get("inline"),
         crosslines=lines.get("crossline"),
         header=found.text,
         reasons=tuple(filter(None, reasons)),
+        notes=notes,
     )
 
 

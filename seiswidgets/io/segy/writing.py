@@ -4,14 +4,15 @@ from pathlib import Path
 
 import numpy as np
 
-from seiswidgets.errors import SettingError
+from seiswidgets.errors import DataError, SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io.exports.reports import stages_in_words
 from seiswidgets.io.files import required, written
 from seiswidgets.io.options import OpenOptions
-from seiswidgets.io.segy.lines import BYTES, line
+from seiswidgets.io.segy.lines import line
 from seiswidgets.io.segy.reading import trace_headers
+from seiswidgets.io.segy.traces import BYTES
 
 THOUSANDTHS = {"ms": 1000, "s": 1_000_000, "m": 1000, "km": 1_000_000, "ft": 1000}  # of a millisecond, metre or foot
 LIVE, DEAD = 1, 2
@@ -38,16 +39,33 @@ def write_segy(section: Section, path: Path, done: Restoration | None, like: Pat
     else:
         with trace_headers(like, choices) as original:
             text = original.layout.text.split("\n")
-            general = {int(byte): value for byte, value in original.file.bin.items() if byte in CARRIED}
-            headers = _carried_headers(section, original, line(original, choices, None), choices.x0)
+            traces = line(original, choices, None)
+            with _opened(segyio, original.layout) as file:
+                general = {int(byte): value for byte, value in file.bin.items() if byte in CARRIED}
+                headers = _carried_headers(section, file, original.bytes, traces, choices.x0)
     spec = segyio.spec()
     spec.samples, spec.tracecount, spec.format = np.arange(section.shape[0]), section.shape[1], 5
     with written(path) as draft, segyio.create(draft, spec) as file:
         file.text[0] = _textual_header(text, section, done)
-        file.bin = general | {3217: vertical[117], 3219: vertical[117], 3501: 256}
+        file.bin = general | {3217: vertical[117], 3219: vertical[117], 3501: 1}
         for number, (trace, header) in enumerate(zip(section.amplitude.T, headers, strict=True)):
             _put_header(file, number, header | vertical | {115: section.shape[0], 29: _state(trace)}, path)
             file.trace[number] = np.nan_to_num(np.ascontiguousarray(trace, np.float32))
+
+
+def _opened(segyio, layout):
+    """The original in segyio, which must read its headers as we do."""
+    try:
+        file = segyio.open(layout.path, ignore_geometry=True, endian=layout.endian)
+    except (OSError, RuntimeError, ValueError) as error:
+        raise DataError(f"{layout.path} has headers that cannot be carried over: {error}; leave like= out") from error
+    if (file.tracecount, len(file.samples)) != (layout.traces, layout.samples):
+        file.close()
+        raise DataError(
+            f"{layout.path} has headers that can be read in two ways ({layout.traces} traces of {layout.samples} "
+            "samples, or otherwise), and cannot be carried over; leave like= out"
+        )
+    return file
 
 
 def _put_header(file, number, header, path):
@@ -104,16 +122,16 @@ def _own_headers(section, path):
     ]
 
 
-def _carried_headers(section, original, traces, x0):
+def _carried_headers(section, file, bytes_, traces, x0):
     """Headers of the original's traces; beyond its ends the last ones, their numbers and positions carried on."""
     places = np.rint((section.x - x0) / section.dx).astype(int)
-    run_on = [*NUMBERS, *(original.bytes[name] for name in ("inline", "crossline", "x", "y"))]
+    run_on = [*NUMBERS, *(bytes_[name] for name in ("inline", "crossline", "x", "y"))]
     found = []
     for place in places:
         inside = int(np.clip(place, 0, len(traces) - 1))
-        header = dict(original.file.header[int(traces[inside])])
+        header = dict(file.header[int(traces[inside])])
         if place != inside:
-            neighbour = original.file.header[int(traces[1 if inside == 0 else inside - 1])]
+            neighbour = file.header[int(traces[1 if inside == 0 else inside - 1])]
             beyond = abs(place - inside)
             header |= {byte: header[byte] + int(beyond) * (header[byte] - neighbour[byte]) for byte in run_on}
         found.append({int(byte): value for byte, value in header.items()})

@@ -2,7 +2,7 @@
 
 import os
 import re
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from reprlib import repr as brief
 
@@ -15,6 +15,11 @@ from seiswidgets.io.session.saved_picks import SavedPick
 from seiswidgets.io.session.sources import FILE, SectionSource, relative, resolved
 
 FORMAT, VERSION = "seiswidgets session", 1
+ELSEWHERE = (
+    "fixed",
+    "pins",
+    "regional",
+)  # of a plan: the held point stands with the picks, the others are not used yet
 DEEPEST = 4  # lists within lists in the choices of a source
 
 
@@ -38,26 +43,29 @@ MIGRATIONS = {0: _from_version_0}  # from each old version to the next
 
 def text(session, path: Path) -> str:
     """A session as it is written into a file of that path."""
+    return json_text(document(session, path))
+
+
+def document(session, path: Path) -> dict:
+    """A session as plain values, with paths relative to the folder of a file of that path."""
     source = session.source
     where = (
         {"path": relative(_folder(path), source.name), "choices": dict(source.choices)}
         if source.kind == FILE
         else {"name": source.name, "arguments": dict(source.choices)}
     )
-    return json_text(
-        {
-            "format": FORMAT,
-            "version": VERSION,
-            "written_by": f"seiswidgets {__version__}",
-            "section": {"source": {"kind": source.kind, **where}, "sha256": session.sha256},
-            "picks": {
-                "faults": [{"name": pick.name, "points": pick.pieces[0], **_looks(pick)} for pick in session.faults],
-                "horizons": [{"name": pick.name, "pieces": pick.pieces, **_looks(pick)} for pick in session.horizons],
-                "fixed": session.fixed,
-            },
-            "plan": asdict(session.plan),
-        }
-    )
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "written_by": f"seiswidgets {__version__}",
+        "section": {"source": {"kind": source.kind, **where}, "sha256": session.sha256},
+        "picks": {
+            "faults": [{"name": pick.name, "points": pick.pieces[0], **_looks(pick)} for pick in session.faults],
+            "horizons": [{"name": pick.name, "pieces": pick.pieces, **_looks(pick)} for pick in session.horizons],
+            "fixed": session.fixed,
+        },
+        "plan": {name: value for name, value in asdict(session.plan).items() if name not in ELSEWHERE},
+    }
 
 
 def _folder(path):
@@ -77,15 +85,19 @@ def read(path: Path, allow_outside: bool) -> dict:
     DataError
         If it is not a session, is damaged, comes from a newer version, or leads out of its folder.
     """
-    document = _migrated(read_json(path))
+    return fields_of(read_json(path), allow_outside)
+
+
+def fields_of(entry: Entry, allow_outside: bool) -> dict:
+    """The fields of the session in a document that has been parsed; errors as for `read`."""
+    document = _migrated(entry)
     section, picks = document["section"], document["picks"]
     return {
         "source": _source(section["source"], allow_outside),
         "sha256": section.optional("sha256", _sha256),
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
-        "fixed": picks.optional("fixed", Entry.point),
-        "plan": document.optional("plan", _plan, Plan()),
+        "plan": replace(document.optional("plan", _plan, Plan()), fixed=picks.optional("fixed", Entry.point)),
         "written_by": document.optional("written_by", Entry.text, ""),
     }
 

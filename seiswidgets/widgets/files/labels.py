@@ -22,14 +22,15 @@ LABELS = {
     "z_up": "z grows upwards",
 }
 KEYWORD = re.compile(
-    rf"(?<![\w./-])(?:({'|'.join(LABELS)})=(?:True\b|(?=[\s,.;:)]|$)|(?={{))|(dx|dz|x_unit|z0|z_unit)(?= must be ))"
+    rf"(?<![\w./-])(?:({'|'.join(LABELS)})=(?:True\b|(?=[\s,.;:){{\d\x22]|$))|(dx|dz|x_unit|z0|z_unit)(?= must be ))"
 )
+VALUE = re.compile(r'[{\d"]')  # stands behind a keyword
 
 
 def in_labels(text: str) -> str:
     """A message with “traces apart” where it says dx=, or what dx must be, and so on."""
     return KEYWORD.sub(
-        lambda match: f"“{LABELS[match[1] or match[2]]}”" + " " * text.startswith("{", match.end()), text
+        lambda match: f"“{LABELS[match[1] or match[2]]}”" + " " * bool(VALUE.match(text, match.end())), text
     )
 
 

@@ -9,6 +9,7 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.section import METRES, SECONDS
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.segy.reading import PER_MS_OR_M
+from seiswidgets.widgets.closing import close_with_parts
 from seiswidgets.widgets.files.labels import LABELS, in_labels
 from seiswidgets.widgets.messages import HINT
 
@@ -56,7 +57,10 @@ class SectionFields(VBox):
         for name in set(KEPT) & set(before) & set(self.fields):
             self.fields[name].value = before[name].value
         self._take_units()
+        replaced = [field for field in self.children if field is not self._note]
         self.children = [*self.fields.values(), self._note]
+        for field in replaced:  # or ipywidgets would keep it
+            close_with_parts(field)
 
     def choices(self) -> dict:
         """The keywords of `open_section`.
@@ -142,7 +146,7 @@ class SectionFields(VBox):
 
     def _said(self):
         """What is not in the file, as HTML: why not, and which fields hold no more than a usual value."""
-        reasons = "".join(REASON.format(escape(in_labels(reason))) for reason in self._info.reasons)
+        reasons = "".join(REASON.format(escape(in_labels(said))) for said in (*self._info.reasons, *self._info.notes))
         assumed = []
         if "z_unit" in self.fields:
             assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
