@@ -82,8 +82,8 @@ def test_jacobian_of_the_barrier_is_the_derivative_when_squeezed(squeeze):
 
 
 @pytest.mark.parametrize(("name", "squeeze"), [("edge length", 0.9), ("area barrier", 0.35), ("area barrier", 0.1)])
-def test_curvature_is_what_the_jacobian_leaves_of_the_second_derivative(line, name, squeeze):
-    term, rest = case(line, name)
+def test_curvature_is_what_the_jacobian_leaves_of_the_second_derivative(name, squeeze):
+    term, rest = case("planar", name)
     check_curvature(term, perturbed(rest * [squeeze, 1], np.random.default_rng(4), 0.5), np.random.default_rng(10))
 
 
