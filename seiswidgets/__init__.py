@@ -22,7 +22,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology": ["synthetic"],
         "geology.cutoffs": ["heave", "throw"],
         "geology.findings": ["Finding"],
-        "geology.correlation": ["cross_fault_correlation", "cross_fault_correlation"],
+        "geology.correlation": ["cross_fault_correlation", "likeness"],
         "geology.picks": ["Fault", "Horizon", "Interpretation"],
         "geology.plan": ["Plan", "Step"],
         "geology.report": ["Report"],

@@ -46,9 +46,9 @@ def cross_fault_correlation(restoration: Restoration, fault: Fault, gap: int = 2
     return float(left @ right / max(np.sqrt((left @ left) * (right @ right)), np.finfo(float).tiny))
 
 
-def cross_fault_correlation(restoration: Restoration, fault: Fault, gap: int = 2, width: int = 4) -> float:
+def likeness(restoration: Restoration, fault: Fault, gap: int = 2, width: int = 4) -> float:
     """Former name of `cross_fault_correlation`; deprecated since 0.1.0, and removed in 0.2.0."""
-    warnings.warn("sw.cross_fault_correlation is now called sw.cross_fault_correlation", DeprecationWarning, stacklevel=2)
+    warnings.warn("sw.likeness is now called sw.cross_fault_correlation", DeprecationWarning, stacklevel=2)
     return cross_fault_correlation(restoration, fault, gap, width)
 
 

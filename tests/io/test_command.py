@@ -9,7 +9,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets import __main__ as command
-from seiswidgets.io.session.session import replay
+from seiswidgets.io.session import replay
 from seiswidgets.io.session.replay import output_names
 
 ROOT = Path(__file__).parents[2]

@@ -13,7 +13,7 @@ from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io.document import LARGEST_OURS, check_size
 from seiswidgets.io.files import user_path, write_whole
-from seiswidgets.io.session.session import file
+from seiswidgets.io.session import file
 from seiswidgets.io.session.saved_picks import SavedPick, saved
 from seiswidgets.io.session.sources import SectionSource, section_sha256
 

@@ -12,7 +12,7 @@ WIDTHS = {"problem": 3, "warning": 2}  # css pixels of the frame
 
 
 class PaneBadge(HTML):
-    """Snapshot and label over a pane; the picture's own pixels, and the mouse, are left alone.
+    """Frame and label over a pane; the picture's own pixels, and the mouse, are left alone.
 
     Parameters
     ----------

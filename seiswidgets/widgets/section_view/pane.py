@@ -71,7 +71,7 @@ class SectionPane(WithParts, VBox):
         the present-day section itself if not.
     layer : PointerLayer
     badge : PaneBadge
-        Snapshot and label that mark the picture, as one of a result that needs a look.
+        Frame and label that mark the picture, as one of a result that needs a look.
     message : str
         What is said below the pane, of an error mostly.
 
