@@ -101,7 +101,7 @@ def test_of_several_pages_the_first_is_taken(tmp_path):
 
 def test_axes_are_asked_for(tmp_path):
     path = saved(tmp_path / "scan.png", GREY)
-    with pytest.raises(sw.SettingError, match=r"scan.png does not say how long and how deep it is: give extent="):
+    with pytest.raises(sw.SettingError, match=r"scan.png does not say how wide and how deep it is: give extent="):
         sw.open_section(path, z_unit="m")
     with pytest.raises(sw.SettingError, match=r"scan.png does not say whether it is in time or in depth"):
         sw.open_section(path, extent=EXTENT)
@@ -113,7 +113,7 @@ def test_axes_are_asked_for(tmp_path):
 
 @pytest.mark.parametrize("extent", [(300, 100, 0, 1), (0, 1, 2), "wide", (0, np.inf, 0, 1)])
 def test_an_extent_that_is_none(tmp_path, extent):
-    with pytest.raises(sw.SettingError, match="extent must be"):
+    with pytest.raises(sw.SettingError, match="extent= must be"):
         sw.open_section(saved(tmp_path / "scan.png", GREY), extent=extent, z_unit="m")
 
 
@@ -125,7 +125,7 @@ def test_choices_of_segy_have_no_meaning(tmp_path, choice):
 
 
 def test_an_extent_and_a_spacing_are_one_too_many(tmp_path):
-    with pytest.raises(sw.SettingError, match="dx= has no meaning for an extent"):
+    with pytest.raises(sw.SettingError, match="dx= has no meaning for a file whose extent is given"):
         sw.open_section(saved(tmp_path / "scan.png", GREY), extent=EXTENT, dx=1, z_unit="m")
 
 

@@ -197,7 +197,7 @@ def test_a_scalar_that_is_none_is_not_taken(save, scalar):
 
 
 def test_time_or_depth_is_asked_for(save):
-    with pytest.raises(sw.SettingError, match=r'line.sgy does not say whether .* velocity= .* z_unit="m"'):
+    with pytest.raises(sw.SettingError, match=r"line.sgy does not say whether .* velocity= .* z_unit='m'"):
         sw.open_section(save(RAMP, straight(3)))
 
 
@@ -306,7 +306,7 @@ def test_a_range_of_traces_that_are_not_there(save, traces):
 )
 def test_choices_of_another_kind(save, chosen):
     (name,) = chosen
-    with pytest.raises(sw.SettingError, match=f"{name} must be a .*, but is"):
+    with pytest.raises(sw.SettingError, match=f"{name}= must be a .*, but is"):
         sw.open_section(save(RAMP, straight(3)), z_unit="m", **chosen)
 
 
@@ -330,8 +330,9 @@ def test_a_preview_reads_the_bytes_that_are_chosen(save):
 def test_a_preview_says_why_positions_are_of_no_use(save, headers, match):
     info = sw.preview(save(np.arange(16).reshape(4, 4), headers))
     assert info.dx is None
-    (reason,) = info.reasons
-    assert re.search(match, reason)
+    (finding,) = info.findings
+    assert finding.severity == "problem"
+    assert re.search(match, finding.text)
 
 
 def test_a_line_on_the_map_runs_through_its_traces(save):
@@ -374,7 +375,7 @@ def test_a_file_that_is_not_as_its_headers_say(save, change, message):
 def test_an_infinite_sample_says_where(save):
     samples = RAMP.astype(float)
     samples[1, 2] = np.inf
-    with pytest.raises(sw.DataError, match="infinite amplitude, at sample 2 of trace 1"):
+    with pytest.raises(sw.DataError, match="infinite amplitude at sample 2 of trace 1"):
         sw.open_section(save(samples, straight(3)), z_unit="m")
 
 
@@ -384,7 +385,7 @@ def test_a_line_too_large_for_memory_is_refused_unread(tmp_path):
     with (tmp_path / "line.sgy").open("wb") as file:
         file.write(content)
         file.truncate(3600 + 6000 * len(trace))  # a file with holes: it takes no room
-    with pytest.raises(sw.DataError, match=r"60000 x 6000 amplitudes, 1.34 GB; a section may have 1 GB"):
+    with pytest.raises(sw.DataError, match=r"60000 x 6000 amplitudes, 1.34 GiB; the limit is 1 GiB"):
         sw.open_section(tmp_path / "line.sgy", dx=1, dz=1, z_unit="m")
 
 

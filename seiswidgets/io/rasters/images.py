@@ -10,8 +10,8 @@ from PIL import ExifTags, Image, ImageOps
 
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.section import Section
-from seiswidgets.io.info import HEIGHT, SectionInfo
-from seiswidgets.io.options import DAMAGED, OF_SEGY, OpenOptions, Progress, section_of
+from seiswidgets.io.info import TIME_OR_DEPTH, SectionInfo
+from seiswidgets.io.options import DAMAGED, SEGY_OPTIONS, OpenOptions, Progress, make_section
 
 MOST_PIXELS = 40_000_000
 DEEP = ("I;16", "I;16B")
@@ -33,17 +33,17 @@ def open_picture(path: Path, choices: OpenOptions, _progress: Progress | None) -
     SettingError
         If its axes or units are not said.
     """
-    choices.refuse(OF_SEGY, "a picture")
+    choices.refuse(SEGY_OPTIONS, "a picture")
     choices.time_or_depth(path)
     with _picture(path) as image:
         fields = choices.axes(path, _shape(image))
         amplitude = _grey(image)
-    return section_of(path, amplitude, choices, **fields)
+    return make_section(path, amplitude, choices, **fields)
 
 
 def preview_picture(path: Path, choices: OpenOptions) -> SectionInfo:
     """What a picture holds, without decoding it."""
-    choices.refuse(OF_SEGY, "a picture")
+    choices.refuse(SEGY_OPTIONS, "a picture")
     with _picture(path) as image:
         return SectionInfo(
             path=path,
@@ -51,7 +51,7 @@ def preview_picture(path: Path, choices: OpenOptions) -> SectionInfo:
             format=f"{image.format}, mode {image.mode}{_pages(image)}",
             size=path.stat().st_size,
             shape=_shape(image),
-            needed=("extent", HEIGHT),
+            needed=("extent", TIME_OR_DEPTH),
         )
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.options import checked_shape
+from seiswidgets.io.options import check_shape
 
 TEXT, HEADERS, TRACE_HEADER = 3200, 3600, 240
 FORMATS = {  # SEG-Y's code: what a sample is, and its bytes
@@ -137,7 +137,7 @@ def _traces(path, samples, itemsize, extra_texts):
             "headers are damaged, its traces differ in length, or it has further headers or trailers of revision 2, "
             "which are not read: copy it again from where it came, or write it anew as revision 1"
         )
-    checked_shape(path, (samples, traces))
+    check_shape(path, (samples, traces))
     return traces
 
 

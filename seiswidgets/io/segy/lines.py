@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from seiswidgets.errors import DataError, SettingError
-from seiswidgets.io.files import required
-from seiswidgets.io.options import OpenOptions, Progress, tell
+from seiswidgets.io.files import import_optional
+from seiswidgets.io.options import OpenOptions, Progress, report_progress
 from seiswidgets.io.segy.layout import Layout
 
 BYTES = {"inline": 189, "crossline": 193, "x": 181, "y": 185, "scalar": 71}  # as revision 1 of the standard has them
@@ -53,7 +53,7 @@ def checked_bytes(layout: Layout, chosen: Mapping[str, int] | None) -> dict[str,
     SettingError
         If a name or a byte is not one of SEG-Y's.
     """
-    known = [int(field) for field in required("segyio", f"to read {layout.path}").TraceField.enums()]
+    known = [int(field) for field in import_optional("segyio", f"to read {layout.path}").TraceField.enums()]
     for name, byte in (chosen or {}).items():
         if name not in BYTES:
             raise SettingError(f"header_bytes= takes {', '.join(BYTES)}, but has {name!r}")
@@ -161,7 +161,7 @@ def line(headers: TraceHeaders, choices: OpenOptions, progress: Progress | None)
     if len(chosen) > 1:
         raise SettingError(f"choose one of inline=, crossline= and traces=, not {' and '.join(chosen)}")
     if "traces" in chosen:
-        return _part(layout, choices.traces)
+        return _part(layout, choices.keywords.get("traces"))
     if chosen:
         ((name, number),) = chosen.items()
         return _numbered(headers, volume(headers), name, number, progress)
@@ -209,7 +209,7 @@ def _searched(headers, name, number, progress):
     found, count = [], headers.layout.traces
     for start in range(0, count, WINDOW):
         found.append(start + np.flatnonzero(headers(name, slice(start, start + WINDOW)) == number))
-        tell(progress, 0.0)
+        report_progress(progress, 0.0)
     return np.concatenate(found)
 
 

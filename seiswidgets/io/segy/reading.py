@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 
 from seiswidgets.errors import DataError
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.section import Section
-from seiswidgets.io.files import required
-from seiswidgets.io.info import HEIGHT, SectionInfo
-from seiswidgets.io.options import OpenOptions, Progress, checked_size, section_of, tell
+from seiswidgets.io.files import import_optional
+from seiswidgets.io.info import TIME_OR_DEPTH, SectionInfo
+from seiswidgets.io.options import OpenOptions, Progress, check_memory, make_section, report_progress
 from seiswidgets.io.segy.layout import layout
 from seiswidgets.io.segy.lines import TraceHeaders, checked_bytes, course, first_line, line, lines_of_volume, spacing
 
@@ -34,15 +35,15 @@ def open_segy(path: Path, choices: OpenOptions, progress: Progress | None) -> Se
         traces = line(headers, choices, progress)
         found = _axes(headers, traces, choices, PER_MS_OR_M.get(z_unit, 1.0))
         amplitude = _samples(headers, traces, progress)
-    return section_of(path, amplitude, choices, **found)
+    return make_section(path, amplitude, choices, **found)
 
 
 @contextmanager
 def trace_headers(path: Path, choices: OpenOptions):
     """The trace headers of a SEG-Y file, open for as long as the context lasts."""
     found = layout(path)
-    segyio = required("segyio", f"to read {path}")
-    positions = checked_bytes(found, choices.header_bytes)
+    segyio = import_optional("segyio", f"to read {path}")
+    positions = checked_bytes(found, choices.keywords.get("header_bytes"))
     try:
         file = segyio.open(path, ignore_geometry=True, endian=found.endian)
     except (OSError, RuntimeError, ValueError) as error:
@@ -59,10 +60,10 @@ def trace_headers(path: Path, choices: OpenOptions):
 def _axes(headers, traces, choices, scale):
     """Spacing, origin and unit as the user chose, else as the headers say: z there times a scale."""
     return {
-        "dx": spacing(headers, traces) if choices.dx is None else choices.dx,
-        "dz": scale * _interval(headers, traces) if choices.dz is None else choices.dz,
-        "x0": choices.x0 or 0.0,
-        "z0": scale * _delay(headers, traces) if choices.z0 is None else choices.z0,
+        "dx": spacing(headers, traces) if choices.keywords.get("dx") is None else choices.keywords.get("dx"),
+        "dz": scale * _interval(headers, traces) if choices.keywords.get("dz") is None else choices.keywords.get("dz"),
+        "x0": choices.keywords.get("x0") or 0.0,
+        "z0": scale * _delay(headers, traces) if choices.keywords.get("z0") is None else choices.keywords.get("z0"),
         "x_unit": "ft" if headers.layout.feet else "m",
     }
 
@@ -98,12 +99,12 @@ def _samples(headers, traces, progress):
     """Amplitudes of some traces, as the smallest floats that hold each exactly; shape (nz, nx)."""
     samples, file = headers.layout.samples, headers.file
     kind = np.result_type(file.dtype, np.float32)
-    checked_size(headers.layout.path, (samples, len(traces)), kind.itemsize)
+    check_memory(headers.layout.path, (samples, len(traces)), kind.itemsize)
     amplitude = np.empty((samples, len(traces)), kind)
     for start in range(0, len(traces), BLOCK):
         for place, trace in enumerate(traces[start : start + BLOCK], start):
             amplitude[:, place] = file.trace.raw[int(trace)]
-        tell(progress, min(1.0, (start + BLOCK) / len(traces)))
+        report_progress(progress, min(1.0, (start + BLOCK) / len(traces)))
     return amplitude
 
 
@@ -132,7 +133,7 @@ def preview_segy(path: Path, choices: OpenOptions) -> SectionInfo:
         found, lines = headers.layout, lines_of_volume(headers)
         first = np.arange(min(PREVIEWED, first_line(headers)[2] if lines else found.traces))
         measured = [_measured(measure, headers, first) for measure in (spacing, _interval, _delay)]
-    (dx, dz, z0), reasons = zip(*measured, strict=True)
+    (dx, dz, z0), findings = zip(*measured, strict=True)
     return SectionInfo(
         path=path,
         kind="SEG-Y",
@@ -142,7 +143,7 @@ def preview_segy(path: Path, choices: OpenOptions) -> SectionInfo:
         needed=(
             *(["inline, crossline or traces"] if lines else []),
             *(name for name, value in (("dx", dx), ("dz", dz), ("z0", z0)) if value is None),
-            HEIGHT,
+            TIME_OR_DEPTH,
         ),
         dx=dx,
         dz=dz,
@@ -151,13 +152,13 @@ def preview_segy(path: Path, choices: OpenOptions) -> SectionInfo:
         inlines=lines.get("inline"),
         crosslines=lines.get("crossline"),
         header=found.text,
-        reasons=tuple(filter(None, reasons)),
+        findings=tuple(finding for finding in findings if finding is not None),
     )
 
 
 def _measured(measure, headers, traces):
-    """A number and no reason, or none and the reason."""
+    """A number and no finding, or none and why it cannot be determined."""
     try:
-        return measure(headers, traces), ""
+        return measure(headers, traces), None
     except DataError as error:
-        return None, str(error)
+        return None, Finding("problem", error.kind or "headers", error.text)

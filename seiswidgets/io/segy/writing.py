@@ -7,8 +7,8 @@ import numpy as np
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.io.exports.reports import stages_in_words
-from seiswidgets.io.files import required, written
+from seiswidgets.io.exports.reports import stages_as_line
+from seiswidgets.io.files import atomic_write, import_optional
 from seiswidgets.io.options import OpenOptions
 from seiswidgets.io.segy.lines import BYTES, line
 from seiswidgets.io.segy.reading import trace_headers
@@ -30,7 +30,7 @@ def write_segy(section: Section, path: Path, done: Restoration | None, like: Pat
     DataError
         If the file cannot be written, or ``like`` cannot be read.
     """
-    segyio = required("segyio", f"to write {path}")
+    segyio = import_optional("segyio", f"to write {path}")
     _check_samples(section, path)
     vertical = _vertical(section, path)
     if like is None:
@@ -39,10 +39,10 @@ def write_segy(section: Section, path: Path, done: Restoration | None, like: Pat
         with trace_headers(like, choices) as original:
             text = original.layout.text.split("\n")
             general = {int(byte): value for byte, value in original.file.bin.items() if byte in CARRIED}
-            headers = _carried_headers(section, original, line(original, choices, None), choices.x0)
+            headers = _carried_headers(section, original, line(original, choices, None), choices.keywords.get("x0"))
     spec = segyio.spec()
     spec.samples, spec.tracecount, spec.format = np.arange(section.shape[0]), section.shape[1], 5
-    with written(path) as draft, segyio.create(draft, spec) as file:
+    with atomic_write(path) as draft, segyio.create(draft, spec) as file:
         file.text[0] = _textual_header(text, section, done)
         file.bin = general | {3217: vertical[117], 3219: vertical[117], 3501: 256}
         for number, (trace, header) in enumerate(zip(section.amplitude.T, headers, strict=True)):
@@ -130,7 +130,7 @@ def _textual_header(lines, section, done):
     words = [
         f"{did} BY SEISWIDGETS {__version__}: AN INTERPRETATION, NOT A MEASUREMENT.",
         f"ZERO WHERE THERE ARE NO DATA. SECTION: {section.name}",
-        *([f"STAGES: {stages_in_words(done)}"] if done and done.stages else []),
+        *([f"STAGES: {stages_as_line(done)}"] if done and done.stages else []),
     ]
     blank = [number for number, text in enumerate(texts) if not text.strip()]
     places = blank[: len(words)] if len(blank) >= len(words) else range(40 - len(words), 40)

@@ -5,8 +5,7 @@ from pathlib import Path
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing
 from seiswidgets.io.session.saved_picks import SavedPick
-from seiswidgets.io.session.section_beside import SessionWithSection, source_beside
-from seiswidgets.io.session.session import Session
+from seiswidgets.io.session.session import Session, SessionWithSection, source_beside
 from seiswidgets.io.session.sources import SectionSource
 
 
