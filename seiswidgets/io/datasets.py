@@ -177,8 +177,8 @@ def _out_of_reach(source: Source, cache: Path, error: Exception) -> str:
     folder = f"the folder {value} ({FOLDER_VARIABLE})" if value else f"your own folder ({FOLDER_VARIABLE} is not set)"
     return (
         f"{source.name} is neither in {folder} nor in the cache {cache}, and could not be downloaded. "
-        f"Download it from {source.url} and put it into {cache}, or into another folder and set {FOLDER_VARIABLE} to it. "
-        f"The download failed with {type(error).__name__}: {error}"
+        f"Download it from {source.url} and put it into {cache}, or into another folder and set {FOLDER_VARIABLE} "
+        f"to that folder. The download failed with {type(error).__name__}: {error}"
     )
 
 

@@ -166,7 +166,7 @@ def test_text_that_is_no_matrix(tmp_path, content, encoding, message):
 
 def test_a_text_in_one_row_is_refused_before_it_is_read(tmp_path, monkeypatch):
     monkeypatch.setattr("seiswidgets.io.rasters.arrays.MOST_ROW_CHARACTERS", 10)
-    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write a row for each sample"):
+    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write one row for each sample"):
         sw.open_section(text(tmp_path / "line.txt", "1 2 3 4 5 6\n1 2 3 4 5 6\n"), **AXES)
 
 

@@ -186,7 +186,7 @@ def test_opendtect_horizons_keep_their_pieces(tmp_path):
         sw.read_picks(path, TIME, **choices)
     with pytest.raises(DataError, match="no picks on line='L3'; there are 'L 1', 'L 2'"):
         sw.read_picks(path, TIME, line="L3", **choices)
-    with pytest.raises(DataError, match="does not say its x_unit; give x_unit="):
+    with pytest.raises(DataError, match="does not state its x_unit; give x_unit="):
         sw.read_picks(path, TIME, format="opendtect-horizons", along="x", line="L 1")
     with pytest.raises(DataError, match="say by along= where they are on the section"):
         sw.read_picks(path, TIME, format="opendtect-horizons", x_unit="m", line="L 1")
@@ -406,7 +406,7 @@ def test_the_format_is_told_by_the_suffix_or_asked_for(tmp_path):
         SettingError, match=r"its suffix does not tell its format; give format=, one of geojson, csv, opendtect"
     ):
         sw.read_picks(path, DEPTH)
-    with pytest.raises(SettingError, match="format must be one of geojson, csv, but is 'charisma-faults'"):
+    with pytest.raises(SettingError, match="format= must be one of geojson, csv, but is 'charisma-faults'"):
         sw.write_picks(SIMPLE, path, DEPTH, format="charisma-faults")
 
 

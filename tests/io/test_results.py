@@ -182,7 +182,7 @@ def test_what_stood_there_stays_when_writing_fails(tmp_path, monkeypatch):
 
     monkeypatch.setattr("seiswidgets.io.segy.writing._textual_header", full)
     with pytest.raises(
-        sw.DataError, match=r"line.sgy cannot be written: No space left.*Any older file of that name is unchanged"
+        sw.DataError, match=r"line.sgy cannot be written: No space left.*Any older file .* unchanged"
     ):
         sw.save_section(restored(), path)
     assert path.read_text() == "before"

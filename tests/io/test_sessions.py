@@ -132,7 +132,7 @@ def test_what_could_not_be_opened_again_is_not_made(session, tmp_path):
         replace(session, horizons=session.horizons[:1] * 2)
     with pytest.raises(PickError, match="contains an unpaired surrogate"):
         SavedPick("\ud800", (CROSSED,))
-    with pytest.raises(SettingError, match="the colour of 'F' must be #rrggbb or the name of one, but is 'url"):
+    with pytest.raises(SettingError, match="the colour of 'F' must be #rrggbb or the name of a colour, but is 'url"):
         SavedPick("F", (CROSSED,), colour="url(x)")
     with pytest.raises(DataError, match=r"session.json cannot hold this session: .*; correct its numbers"):
         replace(session, plan=sw.Plan(spacing=float("nan"))).save(tmp_path / "session.json")
