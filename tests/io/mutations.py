@@ -7,6 +7,7 @@ that all of them took beside what a sound file takes.
 import json
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -68,6 +69,9 @@ def outcome(path, choices):
 
 
 def main(sound, count, seed):
+    warnings.filterwarnings(
+        "ignore", r".* pages, of which only the first is read"
+    )  # as what is doubled may seem to have
     choices = {"inline": 11, "z_unit": "m"} if sound.suffix == ".inline" else CHOICES
     content, random = sound.read_bytes(), np.random.default_rng(seed)
     assert not outcome(sound, choices), f"{sound} is sound"

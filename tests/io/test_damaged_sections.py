@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import tifffile
 from PIL import Image
 
 from tests.io.segyfiles import numbered, segy_bytes, straight, volume_headers
@@ -28,6 +29,10 @@ def picture(**choices):
     return lambda path: Image.fromarray(np.uint8(127 + 100 * WAVES)).save(path, **choices)
 
 
+def tiff(samples, **choices):
+    return lambda path: tifffile.imwrite(path, samples, **choices)
+
+
 SOUND = {
     "ibm.sgy": segy(1, "big"),
     "ieee.sgy": segy(5, "little"),
@@ -41,6 +46,9 @@ SOUND = {
     "packed.npz": lambda path: np.savez_compressed(path, amplitude=WAVES, dx=5.0, dz=1.0, z_unit="m", name="a"),
     "line.txt": lambda path: np.savetxt(path, WAVES),
     "line.csv": lambda path: np.savetxt(path, WAVES, delimiter=","),
+    "floats.tif": tiff(WAVES.astype(float), byteorder=">", bigtiff=True, extratags=[(42113, "s", 0, "-9999", True)]),
+    "tiles.tif": tiff(np.int16(1000 * WAVES), tile=(16, 16), compression="zlib", predictor=2),
+    "fax.tif": lambda path: Image.fromarray(WAVES > 0).save(path, compression="group4"),
 }
 
 

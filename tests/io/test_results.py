@@ -147,12 +147,18 @@ def test_headers_without_a_free_line_lose_their_last_ones(tmp_path):
 def test_units_come_back(tmp_path, z_unit, dz, z0):
     velocity = 2000 if z_unit in ("ms", "s") else None
     x_unit = {"km": "km", "ft": "ft"}.get(z_unit, "m")
-    section = sw.Section(np.ones((3, 4)), 0.025, dz, 3, z0, x_unit=x_unit, z_unit=z_unit, velocity=velocity)
+    dx = 0.025 if x_unit == "km" else 25
+    section = sw.Section(np.ones((3, 4)), dx, dz, 3, z0, x_unit=x_unit, z_unit=z_unit, velocity=velocity)
     sw.save_section(section, tmp_path / "line.sgy")
     again = sw.open_section(tmp_path / "line.sgy", z_unit=z_unit, velocity=velocity)
     assert (again.dz, again.z0) == pytest.approx((dz, z0))
     assert again.x_unit == ("ft" if z_unit == "ft" else "m")
-    assert again.dx == pytest.approx(25 if x_unit == "km" else 0.025)
+    assert again.dx == pytest.approx(25)
+
+
+def test_a_saved_file_is_of_revision_1(tmp_path):
+    sw.save_section(sw.Section(np.ones((3, 4)), 25, 4), tmp_path / "line.sgy")
+    assert (tmp_path / "line.sgy").read_bytes()[3500:3502] == b"\1\0"
 
 
 @pytest.mark.parametrize(

@@ -103,8 +103,9 @@ def test_a_revision_2_file_may_say_its_interval_more_finely(save):
     assert sw.open_section(path, z_unit="m").dz == 2.5005
 
 
-def test_extended_textual_headers_are_passed_over(save, tmp_path):
-    content = save(RAMP, straight(3), binary={3505: 2}).read_bytes()
+@pytest.mark.parametrize("revision", [0x100, 0x200, 1])  # the last is what some programs write for revision 1
+def test_extended_textual_headers_are_passed_over(save, tmp_path, revision):
+    content = save(RAMP, straight(3), binary={3501: revision, 3505: 2}).read_bytes()
     (tmp_path / "line.sgy").write_bytes(content[:3600] + bytes(6400) + content[3600:])
     np.testing.assert_array_equal(sw.open_section(tmp_path / "line.sgy", z_unit="m").amplitude, RAMP.T)
 
@@ -119,7 +120,7 @@ def test_time_starts_at_the_delay(save, unit, dz, z0):
 
 def test_the_delay_has_a_scalar(save):
     headers = [header | {109: 105, 215: -10} for header in straight(3)]
-    assert sw.open_section(save(RAMP, headers), z_unit="m").z0 == pytest.approx(10.5)
+    assert sw.open_section(save(RAMP, headers, binary={3501: 0x100}), z_unit="m").z0 == pytest.approx(10.5)
 
 
 def test_what_is_chosen_counts_over_the_headers(save):
@@ -128,10 +129,11 @@ def test_what_is_chosen_counts_over_the_headers(save):
     assert {name: getattr(section, name) for name in chosen} == chosen
 
 
-@pytest.mark.parametrize(("scalar", "dx"), [(0, 500), (1, 500), (-100, 5), (10, 5000), (-1, 500)])
+@pytest.mark.parametrize(("scalar", "dx"), [(0, 50), (1, 50), (-100, 0.5), (-10, 5), (-1, 50)])
 def test_a_negative_scalar_divides_positions_and_a_positive_one_multiplies_them(save, scalar, dx):
-    headers = [{181: 300 * n, 185: 400 * n, 71: scalar} for n in range(3)]
+    headers = [{181: 30 * n, 185: 40 * n, 71: scalar} for n in range(3)]
     assert sw.open_section(save(RAMP, headers), z_unit="m").dx == pytest.approx(dx)
+    assert sw.preview(save(RAMP, [{181: 3 * n, 185: 4 * n, 71: 10} for n in range(3)])).dx == 50
 
 
 def test_feet_are_said_by_the_binary_header(save):
@@ -146,10 +148,8 @@ def test_rounded_positions_of_a_slanted_line_give_the_true_spacing(save):
 
 def test_a_crooked_line_is_measured_along_its_way(save):
     angle = np.linspace(0, np.pi, 101)
-    headers = [
-        {181: x, 185: y} for x, y in np.rint(100_000 * np.column_stack([np.cos(angle), np.sin(angle)])).astype(int)
-    ]
-    assert sw.open_section(save(np.ones((101, 4)), headers), z_unit="m").dx == pytest.approx(1000 * np.pi, rel=1e-3)
+    headers = [{181: x, 185: y} for x, y in np.rint(1000 * np.column_stack([np.cos(angle), np.sin(angle)])).astype(int)]
+    assert sw.open_section(save(np.ones((101, 4)), headers), z_unit="m").dx == pytest.approx(10 * np.pi, rel=2e-3)
 
 
 def test_positions_at_other_bytes_are_pointed_out(save):
@@ -358,9 +358,12 @@ def test_header_bytes_that_are_none(save, chosen, message):
         (lambda content: content[:-1], r"traces of 4 samples take 256 bytes each.* 2 fit, and 255 bytes are left"),
         (lambda content: content[:3600], "0 fit"),
         (lambda content: content[: 3600 + 256], "at least 2 samples by 2 traces"),
-        (lambda content: content[:3220] + b"\0\0" + content[3222:], r"no samples \(bytes 3221-3222\)"),
+        (lambda content: content[:3220] + b"\0\0" + content[3222:], r"no samples \(bytes 3221-3222, and 115-116"),
         (lambda content: content[:3224] + b"\0\4" + content[3226:], "bytes 3225-3226 must be .* but are 0 and 4"),
-        (lambda content: content[:3504] + b"\xff\xff" + content[3506:], "unknown number of further textual headers"),
+        (
+            lambda content: content[:3500] + b"\1\0\0\0\xff\xff" + content[3506:],
+            "unknown number of further textual headers",
+        ),
     ],
 )
 def test_a_file_that_is_not_as_its_headers_say(save, change, message):

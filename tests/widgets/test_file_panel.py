@@ -168,6 +168,18 @@ def test_positions_that_are_of_no_use_are_said_before_opening(app, tmp_path):
     assert "give “other header bytes” {" in unescape(look(app, tmp_path / "old.sgy").fields._note.value)
 
 
+def test_doubtful_headers_are_said_before_opening(app, tmp_path):
+    traces, path = np.zeros((30, 5), np.float32), tmp_path / "decimetres.sgy"
+    path.write_bytes(segy_bytes(traces, [{181: 4_340_000 + 125 * n, 185: 64_780_000} for n in range(30)]))
+    said = unescape(look(app, path).fields._note.value)
+    assert "in decimetres, the traces are 12.5 apart: “traces apart” 12.5;" in said
+    bits = [int(np.array(434_000 + 25 * n, "f4").view("i4")) for n in range(30)]
+    (tmp_path / "floats.sgy").write_bytes(segy_bytes(traces, [{181: x, 185: 0} for x in bits]))
+    opener = look(app, tmp_path / "floats.sgy")
+    assert "are read as IEEE floats" in opener.fields._note.value
+    assert opener.fields.fields["dx"].placeholder == "25, as the file says"
+
+
 def test_a_matrix_takes_the_places_of_its_corners(app, tmp_path):
     np.save(tmp_path / "matrix.npy", np.random.default_rng(0).normal(size=(11, 21)))
     opener = load(app, tmp_path / "matrix.npy", z_unit="m", x_min="100", z_max="50")

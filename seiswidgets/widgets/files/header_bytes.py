@@ -4,7 +4,7 @@ from ipywidgets import HTML, Checkbox, GridBox, Layout, Text, VBox
 from traitlets import Dict
 
 from seiswidgets.errors import SettingError
-from seiswidgets.io.segy.lines import BYTES
+from seiswidgets.io.segy.traces import BYTES
 from seiswidgets.widgets.messages import HINT
 
 WORDS = {"scalar": "scalar of x and y"}
