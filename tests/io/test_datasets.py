@@ -153,7 +153,12 @@ def test_a_file_that_is_no_longer_published_is_an_error(tmp_path, published):
 def test_without_a_network_the_error_says_where_to_put_the_file(tmp_path, unreachable):
     with pytest.raises(DataError, match="Download it from") as caught:
         find_file(unreachable, cache=tmp_path / "cache")
-    for part in ("traces.dat", unreachable.url, f"put it into {tmp_path}/cache", f"set {FOLDER_VARIABLE} to that folder"):
+    for part in (
+        "traces.dat",
+        unreachable.url,
+        f"put it into {tmp_path}/cache",
+        f"set {FOLDER_VARIABLE} to that folder",
+    ):
         assert part in str(caught.value)
 
 

@@ -188,7 +188,7 @@ def test_opendtect_horizons_keep_their_pieces(tmp_path):
         sw.read_picks(path, TIME, line="L3", **choices)
     with pytest.raises(DataError, match="does not state its x_unit; give x_unit="):
         sw.read_picks(path, TIME, format="opendtect-horizons", along="x", line="L 1")
-    with pytest.raises(DataError, match="say by along= where they are on the section"):
+    with pytest.raises(DataError, match="choose with along= how they lie along the section"):
         sw.read_picks(path, TIME, format="opendtect-horizons", x_unit="m", line="L 1")
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from seiswidgets.errors import DataError, Keyword, Text
 from seiswidgets.geology.findings import Finding
-from seiswidgets.io.segy.doubts import LONGEST, SPACINGS, WIDE, are_degrees, remedy
+from seiswidgets.io.segy.doubts import LONGEST, SPACINGS, WIDE, are_degrees, remedy, rounded
 from seiswidgets.io.segy.positions import INTEGERS, POSITION_BYTES, Positions, conflict, positions, scale_of
 from seiswidgets.io.segy.traces import TraceHeaders
 
@@ -68,12 +68,11 @@ def remarks(headers: TraceHeaders, traces: np.ndarray, measured: float) -> tuple
             Text(f"positions ({_bytes(headers)}) are read as {found.stored}, as they are not plausible as integers")
         )
     if measured * scale_of(headers, traces).metres > WIDE:
-        tenth = float(f"{measured / 10:g}")
         texts.append(
             Text(
                 f"traces are {measured:g} {headers.x_unit} apart, which is far: if positions are in tenths of that "
                 "unit, give ",
-                Keyword("dx", tenth),
+                Keyword("dx", rounded(measured / 10)),
             )
         )
     return tuple(Finding("warning", "positions", text) for text in texts)
@@ -166,7 +165,7 @@ def _without_positions(found: Positions) -> Text:
     return Text(
         f" {count - len(placed)} traces at the ends are at (0, 0), which means that their positions are missing; the "
         f"others are {first} to {last} of these: ",
-        Keyword("traces", slice(int(first), int(last) + 1)),
+        Keyword("traces", range(int(first), int(last) + 1)),
         ".",
     )
 

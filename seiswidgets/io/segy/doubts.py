@@ -84,7 +84,7 @@ def remedy(scale: Scale, x: np.ndarray, y: np.ndarray, spacing: float, scalar: i
     """Explanations that make the positions plausible, each with the keyword to give."""
     advice: list[str | Keyword] = []
     for reason, factor in _explanations(scalar):
-        corrected = float(f"{spacing * factor:.4g}")
+        corrected = rounded(spacing * factor)
         is_usual = USUAL[0] <= spacing * factor * scale.metres <= USUAL[1]
         if is_usual and scale.is_on_map(x * factor, y * factor, spacing * factor):
             advice += [f"if {reason}, the traces are {corrected:g} apart: ", Keyword("dx", corrected), "; "]
@@ -94,6 +94,12 @@ def remedy(scale: Scale, x: np.ndarray, y: np.ndarray, spacing: float, scalar: i
         advice += ["if they are in feet: ", Keyword("x_unit", "ft"), "; "]
     otherwise = "otherwise " if advice else ""
     return Text(*advice, otherwise, "give the distance between traces, ", DX, ", or other bytes of positions, ", BYTES)
+
+
+def rounded(value: float) -> float:
+    """A value with four digits, as an int if it is whole."""
+    short = float(f"{value:.4g}")
+    return int(short) if short.is_integer() else short
 
 
 def _explanations(scalar: int) -> Iterator[tuple[str, float]]:
