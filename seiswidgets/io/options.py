@@ -10,6 +10,7 @@ import numpy as np
 
 from seiswidgets.errors import Cancelled, DataError, Keyword, SectionError, SettingError
 from seiswidgets.geology.section import SECONDS, Section
+from seiswidgets.geology.validation import finite_number
 
 Progress = Callable[[float], bool | None]
 SEGY_OPTIONS = ("inline", "crossline", "traces", "header_bytes")
@@ -68,7 +69,7 @@ class OpenOptions:
     Raises
     ------
     SettingError
-        If one has the wrong type.
+        If one has the wrong type, or a spacing is not above 0.
     """
 
     def __init__(self, **keywords: Unpack[OpenKeywords]):
@@ -77,6 +78,9 @@ class OpenOptions:
             expected, description = EXPECTED_TYPES[name]
             if not isinstance(value, expected) or isinstance(value, bool):
                 raise SettingError(Keyword(name), f" must be {description}, but is {brief(value)}")
+        for name, value in self.given(("dx", "dz")).items():
+            if finite_number(name, value) <= 0:
+                raise SettingError(Keyword(name), f" must be above 0, but is {value}")
 
     def given(self, names: Iterable[str]) -> dict[str, Any]:
         """Select the given options among some names."""

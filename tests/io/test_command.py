@@ -1,5 +1,7 @@
+import dataclasses
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +11,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets import __main__ as command
+from seiswidgets.errors import Keyword, Text
 from seiswidgets.io.session import replay
 from seiswidgets.io.session.replay import output_names
 
@@ -127,6 +130,35 @@ def test_lines_left_out_are_told(saved, tmp_path, capsys):
     assert command.main(["restore", str(saved), "--out", str(tmp_path / "out")]) == 0
     assert f"{saved}: left out: fault 'F2' crosses itself" in capsys.readouterr().err
     assert "left out: fault 'F2' crosses itself" in (tmp_path / "out" / "session-report.txt").read_text()
+
+
+def test_findings_of_the_stages_are_shown_worst_first(saved, tmp_path, capsys, monkeypatch):
+    def replay_session(*arguments, **options):
+        done = replay.replay_session(*arguments, **options)
+        for stage in done.restored.stages:
+            warning = sw.Finding("warning", "contact", f"{stage.kind} gave way", pick="F1")
+            monkeypatch.setitem(vars(stage), "report", dataclasses.replace(stage.report, findings=(warning,)))
+        problem = sw.Finding("problem", "cut-off", Text("allow it with ", Keyword("allow_changed", True)))
+        last = done.restored.stages[-1]
+        findings = (*last.report.findings, problem)
+        monkeypatch.setitem(vars(last), "report", dataclasses.replace(last.report, findings=findings))
+        return done
+
+    monkeypatch.setattr(command, "replay_session", replay_session)
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "out")]) == 0
+    assert capsys.readouterr().err.splitlines()[1:] == [
+        f"{saved}: problem: allow it with --allow-changed",
+        f"{saved}: warning: unfault gave way",
+        f"{saved}: warning: flatten gave way",
+    ]
+
+
+def test_a_problem_that_a_plan_leaves_is_shown(saved, tmp_path, capsys):
+    document = json.loads(saved.read_text())
+    document["plan"]["weights"]["flatten"] = 0.001  # too weak to bring the horizon to its datum
+    saved.write_text(json.dumps(document))
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "out")]) == 0
+    assert re.search(rf"^{re.escape(str(saved))}: problem: horizon H1 .* datum", capsys.readouterr().err, re.MULTILINE)
 
 
 def test_a_section_outside_or_changed_must_be_allowed(saved, tmp_path, capsys):

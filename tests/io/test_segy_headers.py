@@ -224,7 +224,7 @@ def test_traces_without_positions_at_the_ends_are_named(save, first, last):
     headers = [{181: (EAST + 25 * n) * (first <= n < last), 185: NORTH * (first <= n < last)} for n in range(COUNT)]
     path = save(headers)
     refused(
-        path, rf"{COUNT - last + first} traces at the ends are at \(0, 0\).* traces=slice\({first}, {last}\)", dx=25
+        path, rf"{COUNT - last + first} traces at the ends are at \(0, 0\).* traces=range\({first}, {last}\)", dx=25
     )
     assert opened(path, traces=slice(first, last)).dx == 25
 

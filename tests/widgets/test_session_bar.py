@@ -227,7 +227,7 @@ def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk
     full_disk.append(True)
     draw_fault(app)
     wait_for(lambda: app.keeper.news.text)
-    monkeypatch.setattr(app.keeper._autosave, "_written", lambda session: DataError("still full"))
+    monkeypatch.setattr(app.keeper._autosave, "_write", lambda session: DataError("still full"))
     full_disk.clear()
     app.session_path = path.with_name("other.json")
     assert not app.keeper.news.text
@@ -276,7 +276,7 @@ def test_the_picks_alone_are_taken_where_the_section_is_gone(new_app, path, sect
     other = sw.Section(section.amplitude * 2, section.dx, section.dz)
     again = new_app(other, session=path, source=None)
     choose(again, "Open")
-    assert "is not there" in again.keeper.notice.text
+    assert "does not exist" in again.keeper.notice.text
     choose(again, "Picks only")
     assert again.section is other
     assert again.picker.drawing.picks == first.picker.drawing.picks

@@ -34,9 +34,8 @@ def open_tiff(path: Path) -> "Iterator[TiffPicture]":
     """Open the first page in full resolution of a TIFF file as a ``Picture``."""
     with _quiet(), path.open("rb") as file:
         try:
-            pages = cast(
-                list[tifffile.TiffPage], list(tifffile.TiffFile(file).pages)
-            )  # not closed: long tags are read on demand
+            tiff = tifffile.TiffFile(file)  # not closed: long tags are read on demand
+            pages = cast(list[tifffile.TiffPage], list(tiff.pages))
             kinds = [whole(path, page, "subfiletype") for page in pages]
         except UNEXPECTED as error:
             raise DataError(f"{path} is a damaged TIFF: {error!r}; save it again") from error
