@@ -175,7 +175,7 @@ class _Arrangement:
 
     @property
     def fits(self) -> bool:
-        """Whether the file's size confirms this; zeros at its end are accepted if all trace headers confirm it."""
+        """True if the file's size confirms this; zeros at its end are accepted if all trace headers confirm it."""
         return self.traces >= 1 and (not self.rest or (self.padded and self.agreement == 1))
 
 

@@ -51,7 +51,7 @@ class Positions:
 
     @property
     def is_even(self) -> bool:
-        """Whether all steps are as long as the median, within tolerance."""
+        """True if all steps are as long as the median, within tolerance."""
         return bool(np.abs(self.steps - self.spacing).max() <= EVEN * self.spacing + ROUNDED * self.rounding)
 
 
