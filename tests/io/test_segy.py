@@ -170,9 +170,7 @@ def test_uneven_spacing_says_where(save):
 
 def test_traces_at_the_same_place_are_told_of(save):
     headers = [header for header in straight(3) for _ in range(2)]
-    with pytest.raises(
-        sw.DataError, match=r"traces 1 and 2 \(counted from 0\) are 25 apart; some are at the same"
-    ):
+    with pytest.raises(sw.DataError, match=r"traces 1 and 2 \(counted from 0\) are 25 apart; some are at the same"):
         sw.open_section(save(np.ones((6, 4)), headers), z_unit="m")
 
 
@@ -280,9 +278,7 @@ def test_a_volume_asks_which_line(save):
     path = save(numbered(headers), headers)
     with pytest.raises(sw.SettingError, match=r"3 inlines \(10 to 12\) and 4 crosslines \(201 to 207\)"):
         sw.open_section(path, z_unit="m")
-    with pytest.raises(
-        sw.SettingError, match=r"0 traces of inline 13 .* first trace has 10 there, its last one 12"
-    ):
+    with pytest.raises(sw.SettingError, match=r"0 traces of inline 13 .* first trace has 10 there, its last one 12"):
         sw.open_section(path, z_unit="m", inline=13)
     with pytest.raises(sw.SettingError, match="not inline and crossline"):
         sw.open_section(path, z_unit="m", inline=11, crossline=201)
