@@ -4,6 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 SEVERITIES = ("note", "warning", "problem")
+COLOURS = {"note": ("#546e7a", "white"), "warning": ("#ffb300", "#212121"), "problem": ("#d32f2f", "white")}
+"""Fill of each severity's label and ink on it: readable (WCAG AA) on light and dark pages alike."""
 
 
 @dataclass(frozen=True)

@@ -74,12 +74,24 @@ class Plan:
         Of the mesh, in metres of rock.
     max_iterations : int, optional
         Of each step.
+    fixed : (x, z), optional
+        A point in the block that stays where it is, in the section's units.
+    pins : tuple of (x, z)
+    regional : optional
+        Reserved for points and a level that hold the far field; not supported yet.
+
+    Raises
+    ------
+    SettingError
+        If a choice is out of its range, or pins or a regional level are given.
+    PickError
+        If ``fixed`` is not a point.
 
     Examples
     --------
     >>> import seiswidgets as sw
     >>> case = sw.synthetic.faulted_fold()
-    >>> restored = sw.Plan().restore(case.section, case.interpretation, fixed=case.fixed)
+    >>> restored = sw.Plan(fixed=case.fixed).restore(case.section, case.interpretation)
     >>> [stage.kind for stage in restored.stages]
     ['unfault', 'flatten']
     """
@@ -89,6 +101,9 @@ class Plan:
     solver: str = GAUSS_NEWTON
     spacing: float | None = None
     max_iterations: int | None = None
+    fixed: tuple[float, float] | None = None
+    pins: tuple[tuple[float, float], ...] = ()
+    regional: float | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "steps", tuple(self.steps))
@@ -99,6 +114,10 @@ class Plan:
             raise SettingError(f"the weights of a plan must be seiswidgets.Weights, but are {self.weights!r}")
         if self.solver not in MOST_ITERATIONS:
             raise SettingError(f"solver must be {' or '.join(map(repr, MOST_ITERATIONS))}, but is {self.solver!r}")
+        if self.fixed is not None:
+            object.__setattr__(self, "fixed", validation.held_point(self.fixed))
+        if self.pins or self.regional is not None:
+            raise SettingError("pins and a regional level are not supported yet; hold a block by fixed instead")
 
     def restore(self, section: Section, interpretation: Interpretation, fixed=None, progress=None) -> Restoration:
         """Carry the plan out; steps that have nothing to work on, for want of faults or horizons, are left out.
@@ -108,7 +127,7 @@ class Plan:
         section : Section
         interpretation : Interpretation
         fixed : (x, z), optional
-            A point in the block that stays where it is.
+            The held point, if it is not the plan's own.
         progress : callable(step, iteration, energy), optional
             Called after each iteration, steps counted from 0; returning False cancels.
 
@@ -117,7 +136,8 @@ class Plan:
         PickError, SettingError, FlippedError, Cancelled
             As for `Restoration.unfault`; PickError also if a step names a pick that is not there.
         """
-        return RestorationJob(section, interpretation, fixed, self).restored(progress=progress)
+        plan = self if fixed is None else replace(self, fixed=fixed)
+        return RestorationJob(section, interpretation, plan).restored(progress=progress)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +146,6 @@ class RestorationJob:
 
     section: Section
     interpretation: Interpretation
-    fixed: tuple[float, float] | None
     plan: Plan
     quick: bool = False
 
@@ -176,7 +195,7 @@ class RestorationJob:
         choices["max_iterations"] = self.plan.max_iterations
         if step.kind == UNFAULT:
             faults, horizons = self._faults(step), self.interpretation.horizons
-            return restoration.unfault(faults, horizons, fixed=self.fixed, **choices)
+            return restoration.unfault(faults, horizons, fixed=self.plan.fixed, **choices)
         return restoration.flatten(self._horizon(step), datum=step.datum, **choices)
 
     def _faults(self, step) -> list[Fault]:
@@ -205,7 +224,7 @@ class RestorationJob:
             weights = [
                 getattr(self.plan.weights, f.name) for f in fields(Weights) if f.name not in OTHER_WEIGHTS[step.kind]
             ]
-            fixed = self.fixed if step.kind == UNFAULT else None
+            fixed = self.plan.fixed if step.kind == UNFAULT else None
             lines = [(pick.name, *_lines(pick)) for pick in picks]
             yield (
                 step.kind,

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from html import escape
 
-from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.findings import COLOURS, Finding, worst_first
 
 
 @dataclass(frozen=True)
@@ -91,11 +91,12 @@ class Report:
     z_unit: str = "m"
 
     def rows(self) -> list[tuple[str, str]]:
-        """What is reported, line by line: a label and a text with its unit."""
+        """Return the report line by line, each a label and a text with its unit; findings follow the first line."""
         state = "settled" if self.converged else "did NOT settle"
         iterations = f"{self.iterations} iterations, {self.factorisations} factorisations, {self.seconds:.2f} s"
         rows = [
             (f"{self.kind} {', '.join(self.picks)}", f"{self.solver}: {state} in {iterations}"),
+            *((finding.severity, finding.text) for finding in worst_first(self.findings)),
             ("mesh", f"{self.vertices} vertices, {self.triangles} triangles, {self.flipped} flipped"),
             ("energy (m²)", ", ".join(f"{name} {value:.2g}" for name, value in self.energy.items())),
             ("area ratio", ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())),
@@ -115,7 +116,7 @@ class Report:
         for bed in self.beds:
             level = "" if bed.flatness is None else f", {bed.flatness:.2g} {self.z_unit} RMS from the datum"
             rows.append((f"horizon {bed.horizon}", f"bed length {bed.length_change:+.2%}{level}"))
-        return rows + [(finding.severity, finding.text) for finding in self.findings]
+        return rows
 
     def __str__(self):
         rows = self.rows()
@@ -123,8 +124,15 @@ class Report:
         return "\n".join(f"{label:<{width}}  {text}" for label, text in rows)
 
     def _repr_html_(self):
-        left = 'style="text-align: left"'
         cells = (
-            f"<tr><th {left}>{escape(label)}</th><td {left}>{escape(text)}</td></tr>" for label, text in self.rows()
+            f'<tr><th style="{_label_style(label)}">{escape(label)}</th>'
+            f'<td style="text-align: left">{escape(text)}</td></tr>'
+            for label, text in self.rows()
         )
         return f"<table>{''.join(cells)}</table>"
+
+
+def _label_style(label: str) -> str:
+    """CSS of a row's label; findings are coloured by severity."""
+    fill, ink = COLOURS.get(label, ("", ""))
+    return "text-align: left" + (f"; background: {fill}; color: {ink}" if fill else "")

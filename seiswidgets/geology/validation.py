@@ -1,5 +1,8 @@
 """What users ask a restoration for, checked at the door: numbers, points and picks."""
 
+import difflib
+from collections.abc import Iterable
+
 import numpy as np
 
 from seiswidgets.errors import PickError, SettingError
@@ -36,6 +39,17 @@ def as_points(rows) -> np.ndarray:
     if array.shape[-1:] != (2,):
         raise SettingError(f"points must be rows (x, z), of shape (n, 2), but have shape {array.shape}")
     return array.reshape(-1, 2)
+
+
+def held_point(value) -> tuple[float, float]:
+    """Validate a point (x, z) whose block is held."""
+    try:
+        point = np.asarray(value, float)
+    except (TypeError, ValueError):
+        point = np.full(2, np.nan)
+    if point.shape != (2,) or not np.isfinite(point).all():
+        raise PickError(f"fixed must be a point (x, z) of two finite numbers, but is {value!r}")
+    return float(point[0]), float(point[1])
 
 
 def named_picks(given, kind: type, word: str) -> dict:
@@ -88,3 +102,13 @@ def checked_kind(value, kind: type, name: str):
 
 def _a(kind):
     return f"{'an' if kind.__name__[0] in 'AEIOUaeiou' else 'a'} {kind.__name__}"
+
+
+def check_keywords(where: str, given: Iterable[str], known: Iterable[str]) -> None:
+    """Refuse keyword arguments that do not exist, with a SettingError that suggests the right one."""
+    known = sorted(known)
+    for name in given:
+        if name not in known:
+            close = difflib.get_close_matches(name, known, n=1)
+            hint = f"; did you mean {close[0]}=?" if close else f"; it takes {', '.join(known)}"
+            raise SettingError(f"{where} has no keyword {name}={hint}", kind="keyword")

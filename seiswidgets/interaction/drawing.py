@@ -71,7 +71,6 @@ class Drawing:
 
     picks: tuple[Pick, ...] = ()
     draft: DraftLine | None = None
-    fixed: Point | None = None
 
     def pick(self, kind: str, name: str) -> Pick:
         """The pick of that kind and name; PickError if there is none."""
@@ -194,10 +193,6 @@ class Drawing:
         gone = self.pick(kind, name)
         return replace(self, picks=tuple(pick for pick in self.picks if pick is not gone))
 
-    def held(self, point: Point | None) -> "Drawing":
-        """With the point whose block is held, or none."""
-        return replace(self, fixed=None if point is None else _points([point])[0])
-
     def with_interpretation(self, interpretation: Interpretation) -> "Drawing":
         """With the picks of an interpretation instead; those that had the same name keep their looks."""
         looks = {(pick.kind, pick.name): (pick.colour, pick.visible) for pick in self.picks}
@@ -216,7 +211,6 @@ class Drawing:
     def lies_on(self, section: Section) -> bool:
         """Whether no pick, and no held point, lies beyond a section."""
         points = [point for pick in self.picks for piece in pick.pieces for point in piece]
-        points += [self.fixed] if self.fixed else []
         return not points or bool(section.contains(points).all())
 
     @property

@@ -1,8 +1,14 @@
-"""All that a editor shows, as one frozen value."""
+"""The state of the pick editor as a frozen value, and the transitions that mouse and keyboard share."""
 
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
-from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing, PickSelection, Point
+import numpy as np
+
+from seiswidgets.interaction.document import Document
+from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing, PickSelection, Point, Points
+from seiswidgets.interaction.projection import PaneProjection
+from seiswidgets.interaction.viewport import Viewport
 
 LOOK, BLOCK = "look", "block"
 MODES = (LOOK, FAULT, HORIZON, BLOCK)
@@ -18,15 +24,15 @@ class Drag:
         The vertex, in ``base``.
     before : Drawing
     selection : PickSelection or None
-        As they were, for undo and Escape.
+        The drawing and the selection before the drag, for Escape and undo.
     base : Drawing
-        What the vertex is moved in: with the vertex inserted, or the piece cut at its fault.
+        The drawing in which the vertex moves: with the vertex inserted, or the piece cut at its fault.
     pixel, last : tuple
-        Where it was taken hold of, and where the pointer was when it was last told of.
+        Pointer positions at the start of the drag and at its latest move.
     fault : str or None
-        That a cut-off is dragged along.
+        Name of the fault that a cut-off slides along.
     moves : bool
-        Whether it has left its place; a click does not move.
+        Whether the pointer has left its starting position; a click does not move anything.
     """
 
     target: PickSelection
@@ -40,38 +46,160 @@ class Drag:
 
 
 @dataclass(frozen=True)
-class EditorState:
-    """All that a editor shows.
+class Tools:
+    """Placement of vertices: the view of the present-day section, snapping, and following.
 
     Attributes
     ----------
+    viewport : Viewport
+        Of the present-day section.
+    snap : callable(point) -> point, optional
+        Moves a horizon's vertex to the event that it snaps to.
+    follow : callable(start, end) -> points, optional
+        The line along an event between two vertices of a horizon, both included.
+    """
+
+    viewport: Viewport
+    snap: Callable[[Point], Point] | None = None
+    follow: Callable[[Point, Point], np.ndarray] | None = None
+
+    def placed(self, point: Point, kind: str, *, free: bool = False) -> Point:
+        """Position of a new vertex: inside the section, and for a horizon on its event unless ``free``."""
+        point = self.inside(point)
+        return self.inside(self.snap(point)) if kind == HORIZON and self.snap and not free else point
+
+    def inside(self, point: Point) -> Point:
+        """Nearest point of the section."""
+        x_min, x_max, z_min, z_max = self.viewport.section.extent
+        x, z = np.clip(point, (x_min, z_min), (x_max, z_max)).tolist()
+        return x, z
+
+
+@dataclass(frozen=True)
+class EditorState:
+    """Everything that the editor shows. Transitions return a new state.
+
+    Attributes
+    ----------
+    document : Document
     mode : {"look", "fault", "horizon", "block"}
-        That of the line under way, if there is one.
-    drawing : Drawing
+        That of the draft line, if there is one.
     selection : PickSelection or None
-        A pick, a piece of it, or one vertex of that or of the line under way.
+        A pick, a piece of it, or one vertex of that or of the draft line.
     cursor : (x, z) or None
-        The keyboard's; none in look mode.
+        The keyboard cursor; None in look mode.
     drag : Drag or None
     """
 
+    document: Document
     mode: str = LOOK
-    drawing: Drawing = field(default_factory=Drawing)
     selection: PickSelection | None = None
     cursor: Point | None = None
     drag: Drag | None = None
 
+    @property
+    def drawing(self) -> Drawing:
+        """All picks, the draft line included."""
+        return self.document.drawing
 
-def known(state: EditorState) -> PickSelection | None:
-    """What is selected and there: the piece or pick where the vertex cannot be changed now, None where all is gone."""
+    @property
+    def fixed(self) -> Point | None:
+        """The held point."""
+        return self.document.plan.fixed
+
+    def change(self, **changes) -> "EditorState":
+        """Change fields, and what must follow: the mode of a draft line, and a selection that exists."""
+        state = replace(self, **changes)
+        draft = state.drawing.draft
+        mode = draft.kind if draft else state.mode
+        state = replace(state, mode=mode, cursor=None if mode == LOOK else state.cursor)
+        return replace(state, selection=_existing(state))
+
+    def draw(self, drawing: Drawing, selection: PickSelection | None = None) -> "EditorState":
+        """Replace the drawing, and select something in it."""
+        return self.change(document=replace(self.document, drawing=drawing), selection=selection)
+
+    def hold(self, point: Point | None) -> "EditorState":
+        """Hold the block that a point lies in, or none."""
+        return self.change(document=replace(self.document, plan=replace(self.document.plan, fixed=point)))
+
+    def settle(self) -> "EditorState":
+        """End a drag where it is."""
+        return self.change(drag=None)
+
+    def enter(self, mode: str) -> "EditorState":
+        """Change the mode; a draft line is finished, or dropped if it is a single point."""
+        state = self.settle()
+        if mode == state.mode:
+            return state
+        state = state.finish()
+        return (state.cancel() if state.drawing.draft else state).change(mode=mode, cursor=None)
+
+    def add(
+        self, point: Point, tools: Tools, projection: PaneProjection, *, free: bool = False, select: bool = True
+    ) -> "EditorState":
+        """Add a vertex to the draft line, or begin one; ``free`` of snapping and following."""
+        draft = self.drawing.draft
+        point = tools.placed(point, self.mode, free=free)
+        if draft is None:
+            chosen = self.selection
+            name = chosen.name if self.mode == HORIZON and chosen and chosen.kind == HORIZON else None
+            drawing = self.drawing.begun(self.mode, point, name)
+        elif point == draft.points[-1]:
+            return self
+        elif self.mode == HORIZON and tools.follow and not free:
+            drawing = self.drawing.extended(tools.follow(draft.points[-1], point)[1:])
+        else:
+            drawing = self.drawing.continued(projection.path(draft.points[-1], point))
+        last = len(drawing.draft.points) - 1
+        return self.draw(drawing, PickSelection(self.mode, None, 0, last) if select else None)
+
+    def finish(self) -> "EditorState":
+        """Turn the draft line into a pick, or a piece of one, and select it; a single point stays a draft."""
+        draft = self.drawing.draft
+        drawing, name = self.drawing.finished()
+        if name is None:
+            return self
+        return self.draw(drawing, PickSelection(draft.kind, name, len(drawing.pick(draft.kind, name).pieces) - 1))
+
+    def cancel(self) -> "EditorState":
+        """Drop the draft line."""
+        draft = self.drawing.draft
+        exists = draft is not None and draft.name in self.drawing.names(draft.kind)
+        selection = PickSelection(draft.kind, draft.name) if exists else None
+        return self.draw(replace(self.drawing, draft=None), selection)
+
+    def remove_vertex(self, target: PickSelection) -> "EditorState":
+        """Remove a vertex and select the one before it; the only vertex of the draft line cancels that line."""
+        if target.name is None and len(self.drawing.line(target)) == 1:
+            return self.cancel()
+        return self.draw(self.drawing.removed(target), replace(target, vertex=max(0, target.vertex - 1)))
+
+    def editable_lines(self) -> list[tuple[PickSelection, Points]]:
+        """Lines whose vertices can be dragged in the present mode."""
+        draft = self.drawing.draft
+        if draft:
+            return [(PickSelection(draft.kind, None, 0), draft.points)]
+        chosen = self.selection if self.mode == LOOK else None
+        return [
+            (PickSelection(pick.kind, pick.name, piece), points)
+            for pick in self.drawing.picks
+            if pick.visible
+            and (pick.kind == self.mode or (chosen and (pick.kind, pick.name) == (chosen.kind, chosen.name)))
+            for piece, points in enumerate(pick.pieces)
+        ]
+
+
+def _existing(state: EditorState) -> PickSelection | None:
+    """Reduce the selection to what exists: to a piece or pick where its vertex cannot be changed now, or to None."""
     target, drawing = state.selection, state.drawing
     if target is None:
         return None
     points = drawing.line(target)
-    there = target.vertex is not None and target.vertex < len(points)
+    has_vertex = target.vertex is not None and target.vertex < len(points)
     if target.name is None:
-        return target if there else None
+        return target if has_vertex else None
     if not any(pick.visible for pick in drawing.picks if (pick.kind, pick.name) == (target.kind, target.name)):
         return None
     usable = state.mode in (LOOK, target.kind) and drawing.draft is None
-    return target if there and usable else replace(target, piece=target.piece if points else None, vertex=None)
+    return target if has_vertex and usable else replace(target, piece=target.piece if points else None, vertex=None)

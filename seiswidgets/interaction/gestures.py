@@ -1,94 +1,105 @@
-"""What a hand does, as plain values, and what lies under it."""
+"""Gestures as plain values, in present-day coordinates, and hit tests for what lies under them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-REACH = 8.0  # css pixels: how near a press must be to take hold of something
-FINE = 8  # stretches of a segment, in a pane where straight lines look bent
+from seiswidgets.interaction.projection import PaneProjection
+
+REACH = 8.0  # css pixels within which a press takes hold of something
+SUBDIVISIONS = 8  # of a segment, for panes in which straight lines look bent
 
 ToPixels = Callable[[np.ndarray], np.ndarray]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Press:
     """A button goes down.
 
     Parameters
     ----------
     point : tuple (x, z)
-        On the original section, in its units; NaN where a restored pane shows nothing.
+        On the present-day section, in its units; NaN where a restored pane shows nothing.
     pixel : tuple (px, pz)
         In css pixels of the pane's plot area.
+    projection : PaneProjection
+        How the pane shows the present-day section.
     button : int
-        0 is the main one, or a finger.
+        0 is the main button, or a finger.
     modifiers : frozenset of {"ctrl", "meta", "shift", "alt"}
     reach : float
-        How near to something counts as on it, in css pixels; more for a finger.
+        Distance within which something counts as hit, in css pixels; larger for a finger.
     """
 
     point: tuple[float, float]
     pixel: tuple[float, float]
+    projection: PaneProjection
     button: int = 0
     modifiers: frozenset = frozenset()
     reach: float = REACH
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Move:
-    """The pointer is elsewhere; see `Press`."""
+    """The pointer moves; see `Press`."""
 
     point: tuple[float, float]
     pixel: tuple[float, float]
+    projection: PaneProjection
     modifiers: frozenset = frozenset()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Release:
-    """A button goes up; see `Press`. If ``cancelled``, the press was none, as when a second finger comes down."""
+    """A button goes up; see `Press`. ``cancelled`` revokes the press, as when a second finger comes down."""
 
     point: tuple[float, float]
     pixel: tuple[float, float]
+    projection: PaneProjection
     modifiers: frozenset = frozenset()
     cancelled: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DoubleClick:
-    """The second click of two, after its press and release; see `Press`."""
+    """The second of two clicks, after its press and release; see `Press`."""
 
     point: tuple[float, float]
     pixel: tuple[float, float]
+    projection: PaneProjection
     modifiers: frozenset = frozenset()
     reach: float = REACH
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Key:
     """A key goes down, by the name that browsers give it ("a", "Enter", "ArrowLeft", " ")."""
 
     name: str
+    projection: PaneProjection
     modifiers: frozenset = frozenset()
 
 
 Gesture = Press | Move | Release | DoubleClick | Key
 
 
-def vertex_under(event: Press, points, to_pixels: ToPixels) -> tuple[int, float] | None:
-    """The nearest of some points and its distance in pixels; None if none is within reach."""
-    away = np.hypot(*(_pixels(points, to_pixels) - event.pixel).T)
-    nearest = int(np.argmin(away)) if len(away) else 0
-    return (nearest, float(away[nearest])) if len(away) and away[nearest] <= event.reach else None
+def vertex_under(event: Press | DoubleClick, points, to_pixels: ToPixels) -> tuple[int, float] | None:
+    """Index of the nearest point and its distance in css pixels; None if no point is within reach."""
+    distances = np.hypot(*(_pixels(points, to_pixels) - event.pixel).T)
+    nearest = int(np.argmin(distances)) if len(distances) else 0
+    return (nearest, float(distances[nearest])) if len(distances) and distances[nearest] <= event.reach else None
 
 
-def line_under(event: Press, points, to_pixels: ToPixels) -> tuple[int, tuple[float, float], float] | None:
-    """The place of a line nearest to a press, if it is within reach.
+def line_under(
+    event: Press | DoubleClick, points, to_pixels: ToPixels
+) -> tuple[int, tuple[float, float], float] | None:
+    """Nearest point on a line, if it is within reach of a press.
 
     Returns
     -------
     vertex : int
-        The one that follows.
+        Index of the vertex that follows the point.
     point : (x, z)
     distance : float
         In css pixels.
@@ -96,26 +107,27 @@ def line_under(event: Press, points, to_pixels: ToPixels) -> tuple[int, tuple[fl
     points = np.asarray(points, float)
     if len(points) < 2:
         return None
-    ways = np.linspace(0, len(points) - 1, FINE * (len(points) - 1) + 1)
-    pixels = _pixels(_along(points, ways), to_pixels)
+    parameters = np.linspace(0, len(points) - 1, SUBDIVISIONS * (len(points) - 1) + 1)
+    pixels = _pixels(_interpolated(points, parameters), to_pixels)
     start, arm = pixels[:-1], np.diff(pixels, axis=0)
     lengths = np.where((arm**2).sum(axis=1) > 0, (arm**2).sum(axis=1), 1.0)
     share = np.clip(((event.pixel - start) * arm).sum(axis=1) / lengths, 0, 1)
-    away = np.hypot(*(start + share[:, None] * arm - event.pixel).T)
-    nearest = int(np.argmin(away))
-    if not away[nearest] <= event.reach:
+    distances = np.hypot(*(start + share[:, None] * arm - event.pixel).T)
+    nearest = int(np.argmin(distances))
+    if not distances[nearest] <= event.reach:
         return None
-    way = ways[nearest] + share[nearest] / FINE
-    x, z = _along(points, np.array([way]))[0]
-    return min(int(way) + 1, len(points) - 1), (float(x), float(z)), float(away[nearest])
+    parameter = parameters[nearest] + share[nearest] / SUBDIVISIONS
+    x, z = _interpolated(points, np.array([parameter]))[0]
+    return min(int(parameter) + 1, len(points) - 1), (float(x), float(z)), float(distances[nearest])
 
 
-def _along(points, ways):
-    number = np.arange(len(points))
-    return np.column_stack([np.interp(ways, number, points[:, 0]), np.interp(ways, number, points[:, 1])])
+def _interpolated(points, parameters):
+    """Points of a line at fractional vertex indices."""
+    index = np.arange(len(points))
+    return np.column_stack([np.interp(parameters, index, points[:, 0]), np.interp(parameters, index, points[:, 1])])
 
 
 def _pixels(points, to_pixels):
-    """Pixels of points, those that are not shown infinitely far off."""
+    """Pixels of points; those that are not shown lie infinitely far away."""
     pixels = np.asarray(to_pixels(np.reshape(np.asarray(points, float), (-1, 2))), float)
     return np.where(np.isfinite(pixels).all(axis=1, keepdims=True), pixels, 1e12)

@@ -1,12 +1,16 @@
-"""What a editor does when a key is pressed; the table of keys is at the top of `editor`."""
+"""Transitions of the editor for keys; the table of keys is at the top of `editor`.
+
+Each function returns the new state, or None if the key means nothing to the editor, so that the pane may use it.
+"""
 
 from dataclasses import replace
 
 import numpy as np
 
 from seiswidgets.interaction.drawing import FAULT, HORIZON, PickSelection
-from seiswidgets.interaction.editor_state import BLOCK, LOOK
-from seiswidgets.interaction.mouse import CTRL, remove
+from seiswidgets.interaction.editor_state import BLOCK, LOOK, EditorState, Tools
+from seiswidgets.interaction.gestures import Key
+from seiswidgets.interaction.mouse import CTRL, abandon_drag
 
 STRIDE = 8.0  # css pixels that the keyboard cursor moves at least
 FAST = 10  # times as far with Shift
@@ -14,154 +18,122 @@ ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "Arrow
 MODE_KEYS = {"l": LOOK, "f": FAULT, "h": HORIZON, "b": BLOCK}
 
 
-def key_pressed(editor, event) -> bool:
-    """Do what a key asks, and say whether it is consumed."""
+def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
+    """Do what a key asks."""
     if event.name == "Escape":
-        return _escape(editor)
-    editor.settle()
+        return _escape(state)
     if "alt" in event.modifiers:
-        return False
+        return None
     if event.name in ARROWS:
-        return _arrow(editor, event)
+        return _arrow(state, event, tools)
     if event.modifiers & CTRL:
-        return _history(editor, event)
-    action = ACTIONS.get(event.name)
-    if action:
-        return action(editor)
+        return None
+    if event.name in ACTIONS:
+        return ACTIONS[event.name](state, event, tools)
     mode = MODE_KEYS.get(event.name.lower())
-    if mode:
-        editor.enter(mode)
-    return mode is not None
+    return None if mode is None else state.enter(mode)
 
 
-def _history(editor, event):
-    """Undo and redo; consumed even where there is nothing to, or the notebook would undo something of its own."""
-    name = event.name.lower()
-    if name == "y" or (name == "z" and "shift" in event.modifiers):
-        editor.redo()
-    elif name == "z":
-        editor.undo()
-    return name in ("y", "z")
-
-
-def _escape(editor):
-    state = editor.state
+def _escape(state):
     if state.drag:
-        editor.change(drawing=state.drag.before, selection=state.drag.selection, drag=None)
-    elif state.drawing.draft:
-        editor.cancel()
-    elif state.selection:
-        editor.deselect()
-    elif state.mode != LOOK:
-        editor.enter(LOOK)
-    else:
-        return False
-    return True
+        return abandon_drag(state)
+    if state.drawing.draft:
+        return state.cancel()
+    if state.selection:
+        return state.change(selection=None)
+    return state.enter(LOOK) if state.mode != LOOK else None
 
 
-def _arrow(editor, event):
-    target, section = editor.state.selection, editor.view.section
-    way, cell = np.array(ARROWS[event.name]), np.array([section.dx, section.dz])
+def _arrow(state, event, tools):
+    """Nudge the selected vertex, or move the keyboard cursor."""
+    target, viewport = state.selection, tools.viewport
+    direction = np.array(ARROWS[event.name])
+    cell = np.array([viewport.section.dx, viewport.section.dz])
     fast = FAST if "shift" in event.modifiers else 1
     if target is not None and target.vertex is not None:
-        point = editor.drawing.line(target)[target.vertex]
-        editor.edit(editor.drawing.moved(target, editor.inside(point + way * cell * fast)), target)
-    elif editor.state.mode != LOOK:
-        stride = 1 if event.modifiers & CTRL else fast * np.maximum(1, np.ceil(STRIDE * editor.view.pixel / cell))
-        editor.change(cursor=editor.inside(_cursor(editor) + way * cell * stride))
-    else:
-        return False
-    return True
+        point = tools.inside(state.drawing.line(target)[target.vertex] + direction * cell * fast)
+        return state.draw(state.drawing.moved(target, point), target)
+    if state.mode == LOOK:
+        return None
+    stride = 1 if event.modifiers & CTRL else fast * np.maximum(1, np.ceil(STRIDE * viewport.pixel / cell))
+    return state.change(cursor=tools.inside(_cursor(state, tools) + direction * cell * stride))
 
 
-def _cursor(editor):
-    """Where the keyboard cursor is, or where it starts: the selected vertex, the last one, the window's middle."""
-    state, section = editor.state, editor.view.section
+def _cursor(state, tools):
+    """Position of the keyboard cursor, or where it starts: the selected vertex, the last one, the window's middle."""
+    section, target, draft = tools.viewport.section, state.selection, state.drawing.draft
     if state.cursor is not None:
         return state.cursor
-    target, line = state.selection, state.drawing.draft
     if target is not None and target.vertex is not None:
         return state.drawing.line(target)[target.vertex]
-    if line:
-        return line.points[-1]
+    if draft:
+        return draft.points[-1]
     origin, cell = (section.x0, section.z0), (section.dx, section.dz)
-    middle = (editor.view.to_section(editor.view.size / 2) - origin) / cell
-    return editor.inside(np.round(middle) * cell + origin)
+    middle = (tools.viewport.to_section(tools.viewport.size / 2) - origin) / cell
+    return tools.inside(np.round(middle) * cell + origin)
 
 
-def _enter(editor):
-    state, line = editor.state, editor.drawing.draft
+def _enter(state, event, tools):
+    """Show the cursor, put a vertex at it, or finish the draft line."""
+    draft = state.drawing.draft
     if state.mode == LOOK:
-        return False
-    if state.cursor is None and not line:
+        return None
+    if state.cursor is None and not draft:
         chosen = state.selection and replace(state.selection, piece=None, vertex=None)
-        editor.change(cursor=_cursor(editor), selection=chosen)
-    elif line and state.cursor in (None, line.points[-1]):
-        editor.finish()
-    else:
-        _put(editor)
-    return True
+        return state.change(cursor=_cursor(state, tools), selection=chosen)
+    if draft and state.cursor in (None, draft.points[-1]):
+        return state.finish()
+    return _put(state, event, tools)
 
 
-def _space(editor):
-    if editor.state.cursor is None:
-        return False
-    _put(editor)
-    return True
+def _space(state, event, tools):
+    return None if state.cursor is None else _put(state, event, tools)
 
 
-def _put(editor):
+def _put(state, event, tools):
     """Put a vertex, or the held point, at the keyboard cursor."""
-    cursor = editor.state.cursor
-    if editor.state.mode == BLOCK:
-        editor.hold(None if editor.drawing.fixed == cursor else cursor)
-        return
-    editor.add(cursor, select=False)
-    editor.change(cursor=editor.drawing.draft.points[-1])
+    if state.mode == BLOCK:
+        return state.hold(None if state.fixed == state.cursor else state.cursor)
+    added = state.add(state.cursor, tools, event.projection, select=False)
+    return added.change(cursor=added.drawing.draft.points[-1])
 
 
-def _delete(editor):
-    state = editor.state
-    target, line = state.selection, state.drawing.draft
+def _delete(state, event, tools):
+    target, draft = state.selection, state.drawing.draft
     if target is not None and target.vertex is not None:
-        remove(editor, target)
-    elif line:
-        remove(editor, PickSelection(line.kind, None, 0, len(line.points) - 1))
-        if editor.drawing.draft:
-            editor.deselect()
-    elif target is not None and target.piece is not None and state.mode in (LOOK, target.kind):
+        return state.remove_vertex(target)
+    if draft:
+        removed = state.remove_vertex(PickSelection(draft.kind, None, 0, len(draft.points) - 1))
+        return removed.change(selection=None) if removed.drawing.draft else removed
+    if target is not None and target.piece is not None and state.mode in (LOOK, target.kind):
         chosen = None if state.mode == LOOK else PickSelection(target.kind, target.name)
-        editor.edit(state.drawing.with_line(target, []), chosen)
-    elif target is not None and state.mode == LOOK:
-        editor.delete(target.kind, target.name)
-    elif state.mode == BLOCK and state.drawing.fixed is not None:
-        editor.hold(None)
-    else:
-        return False
-    return True
+        return state.draw(state.drawing.with_line(target, []), chosen)
+    if target is not None and state.mode == LOOK:
+        return state.draw(state.drawing.deleted(target.kind, target.name), target)
+    return state.hold(None) if state.mode == BLOCK and state.fixed is not None else None
 
 
-def _insert(editor):
-    """Insert a vertex halfway from the selected one to the next; to the one before, if it is the last."""
-    target = editor.state.selection
-    points = editor.drawing.line(target) if target is not None and target.vertex is not None else ()
+def _insert(state, event, tools):
+    """Insert a vertex halfway from the selected one to the next, or to the one before if it is the last."""
+    target = state.selection
+    points = state.drawing.line(target) if target is not None and target.vertex is not None else ()
     if len(points) < 2:
-        return False
+        return None
     after = min(target.vertex + 1, len(points) - 1)
     new = replace(target, vertex=after)
-    editor.edit(editor.drawing.inserted(new, np.mean(points[after - 1 : after + 1], axis=0)), new)
-    return True
+    return state.draw(state.drawing.inserted(new, np.mean(points[after - 1 : after + 1], axis=0)), new)
 
 
-def _step(editor, way):
-    """Select the vertex after or before the selected one, of all that can be changed now."""
-    targets = [replace(target, vertex=n) for target, points in editor.editable() for n in range(len(points))]
+def _select_vertex(state, step):
+    """Select the vertex after (1) or before (-1) the selected one, of all that can be changed now."""
+    targets = [
+        replace(target, vertex=vertex) for target, points in state.editable_lines() for vertex in range(len(points))
+    ]
     if not targets:
-        return False
-    chosen = editor.state.selection
-    at = targets.index(chosen) + way if chosen in targets else (0 if way > 0 else -1)
-    editor.change(selection=targets[at % len(targets)], cursor=None)
-    return True
+        return None
+    chosen = state.selection
+    index = targets.index(chosen) + step if chosen in targets else (0 if step > 0 else -1)
+    return state.change(selection=targets[index % len(targets)], cursor=None)
 
 
 ACTIONS = {
@@ -172,6 +144,6 @@ ACTIONS = {
     "Insert": _insert,
     "i": _insert,
     "I": _insert,
-    "PageDown": lambda editor: _step(editor, 1),
-    "PageUp": lambda editor: _step(editor, -1),
+    "PageDown": lambda state, event, tools: _select_vertex(state, 1),
+    "PageUp": lambda state, event, tools: _select_vertex(state, -1),
 }

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from seiswidgets.interaction.gestures import REACH, DoubleClick, Gesture, Key, Move, Press, Release
+from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
 
 FINGER = 2.5  # times the reach of a mouse
@@ -63,22 +64,41 @@ class PointerMessage:
         return self.x, self.y
 
 
-def gesture_of(message: PointerMessage, view: Viewport) -> Gesture | None:
-    """What happened, as a value that knows nothing of Jupyter; None if it is no gesture."""
-    at = {"pixel": message.pixel, "point": tuple(view.to_section(message.pixel).tolist())}
-    at["modifiers"] = message.modifiers
+class GestureReader:
+    """Turn a pane's messages into gestures in present-day coordinates.
+
+    From a press to its release the pane is read as it was at the press: a drag changes the restoration, and with it the
+    picture under the pointer.
+    """
+
+    def __init__(self):
+        self._held: PaneProjection | None = None
+
+    def read(self, message: PointerMessage, projection: PaneProjection) -> Gesture | None:
+        """Return the gesture that a message stands for, or None if it is not a gesture."""
+        if message.kind == "press":
+            self._held = projection
+        projection = self._held or projection
+        if message.kind == "release":
+            self._held = None
+        return _gesture(message, projection)
+
+
+def _gesture(message: PointerMessage, projection: PaneProjection) -> Gesture | None:
+    if message.kind == "key":
+        return Key(message.key, projection, message.modifiers)
+    pixel, modifiers = message.pixel, message.modifiers
+    point = projection.to_original(projection.view.to_section(pixel))
     reach = REACH * FINGER if message.touch else REACH
     match message.kind:
         case "press":
-            return Press(**at, button=message.button, reach=reach)
+            return Press(point, pixel, projection, message.button, modifiers, reach)
         case "drag" | "hover":
-            return Move(**at)
+            return Move(point, pixel, projection, modifiers)
         case "release":
-            return Release(**at, cancelled=message.cancelled)
+            return Release(point, pixel, projection, modifiers, message.cancelled)
         case "double":
-            return DoubleClick(**at, reach=reach)
-        case "key":
-            return Key(message.key, message.modifiers)
+            return DoubleClick(point, pixel, projection, modifiers, reach)
     return None
 
 

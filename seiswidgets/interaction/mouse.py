@@ -1,195 +1,175 @@
-"""What a editor does when the pointer is pressed, moved or clicked twice."""
+"""Transitions of the editor for presses, moves, releases and double clicks.
+
+Each function returns the new state, or None if the gesture means nothing here, so that the pane may pan or zoom.
+"""
 
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from seiswidgets.interaction.cutoff_handles import parted, slid, wall_of
+from seiswidgets.interaction.cutoff_handles import cut_offs, parted, slid, wall_of
 from seiswidgets.interaction.drawing import FAULT, HORIZON, PickSelection
-from seiswidgets.interaction.editor_state import BLOCK, LOOK, Drag
-from seiswidgets.interaction.gestures import line_under, vertex_under
+from seiswidgets.interaction.editor_state import BLOCK, LOOK, Drag, EditorState, Tools
+from seiswidgets.interaction.gestures import DoubleClick, Move, Press, Release, line_under, vertex_under
 
-STILL = 3.0  # css pixels: a press that moves less is a click
+CLICK_RADIUS = 3.0  # css pixels: a press that moves less is a click
 CTRL = frozenset({"ctrl", "meta"})
 
 
-def pressed(editor, event) -> bool:
-    """Do what a press asks, and say whether it is consumed."""
+def press(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
+    """Add, select, remove or take hold of something."""
     if event.button != 0 or not np.isfinite([*event.point, *event.pixel]).all():
-        return False
-    editor.change(cursor=None)
-    mode, free = editor.state.mode, "shift" in event.modifiers
+        return None
+    state = state.change(cursor=None)
+    mode, free = state.mode, "shift" in event.modifiers
     if mode == BLOCK:
-        _toggle_held(editor, event)
-        return True
+        return _toggle_held(state, event, tools)
     if event.modifiers & CTRL:
-        return _remove_under(editor, event) or mode != LOOK
-    if not (free and mode != LOOK) and _take_hold(editor, event):
-        return True
+        return _remove_under(state, event) or (None if mode == LOOK else state)
+    if not (free and mode != LOOK) and (taken := _take_hold(state, event, tools)):
+        return taken
     if mode == LOOK:
-        return _select_under(editor, event)
-    editor.add(event.point, free=free)
-    return True
+        return _select_under(state, event)
+    return state.add(event.point, tools, event.projection, free=free)
 
 
-def moved(editor, event) -> bool:
-    """Drag what is held, if anything is, and say so."""
-    drag = editor.state.drag
+def move(state: EditorState, event: Move | Release, tools: Tools) -> EditorState | None:
+    """Drag what is held."""
+    drag = state.drag
     if drag is None:
-        return False
-    far = np.hypot(*np.subtract(event.pixel, drag.pixel)) >= STILL
-    if (far or drag.moves) and np.isfinite(event.point).all():
-        drawing = _dragged(editor, drag, event)
-        editor.change(drawing=drawing, selection=drag.target, drag=replace(drag, last=event.pixel, moves=True))
-    return True
+        return None
+    far = np.hypot(*np.subtract(event.pixel, drag.pixel)) >= CLICK_RADIUS
+    if not ((far or drag.moves) and np.isfinite(event.point).all()):
+        return state
+    moved = state.draw(_dragged(drag, event, tools), drag.target)
+    return moved.change(drag=replace(drag, last=event.pixel, moves=True))
 
 
-def released(editor, event) -> bool:
-    """End a drag where the button goes up, which is farther on if moves were too quick; say whether there was one."""
-    drag = editor.state.drag
-    if not event.cancelled:
-        if drag and event.pixel != drag.last:
-            moved(editor, event)
-        editor.settle()
-    elif drag:
-        editor.change(drawing=drag.before, selection=drag.selection, drag=None)
-    elif editor.drawing is not editor.before_press:
-        editor.undo()
-    return drag is not None
+def release(state: EditorState, event: Release, tools: Tools) -> EditorState | None:
+    """End a drag where the button goes up, which is farther on if the last moves were not reported."""
+    drag = state.drag
+    if drag is None:
+        return None
+    if event.cancelled:
+        return abandon_drag(state)
+    return (move(state, event, tools) if event.pixel != drag.last else state).settle()
 
 
-def double_clicked(editor, event) -> bool:
-    """Finish the line under way; say whether the double click is consumed."""
+def abandon_drag(state: EditorState) -> EditorState:
+    """Go back to the state before a drag."""
+    return state.draw(state.drag.before, state.drag.selection).change(drag=None)
+
+
+def double_click(state: EditorState, event: DoubleClick, tools: Tools) -> EditorState | None:
+    """Finish the draft line, or hold a block."""
     if not np.isfinite([*event.point, *event.pixel]).all():
-        return False
-    mode = editor.state.mode
-    if mode == BLOCK:
-        editor.hold(event.point)
-    elif mode != LOOK:
-        editor.finish()
-    return mode != LOOK or _piece_under(editor, event) is not None
+        return None
+    if state.mode == LOOK:
+        return None if _piece_under(state, event) is None else state
+    return state.hold(tools.inside(event.point)) if state.mode == BLOCK else state.finish()
 
 
-def _dragged(editor, drag, event):
+def _dragged(drag, event, tools):
     free = "shift" in event.modifiers
     if drag.fault is not None and not free:
-        return slid(drag.base, editor.view.section, drag.target, drag.fault, event.point)
-    return drag.base.moved(drag.target, editor.placed(event.point, drag.target.kind, free=free))
+        return slid(drag.base, tools.viewport.section, drag.target, drag.fault, event.point)
+    return drag.base.moved(drag.target, tools.placed(event.point, drag.target.kind, free=free))
 
 
-def _toggle_held(editor, event):
-    held = editor.drawing.fixed
-    again = held is not None and vertex_under(event, [held], editor.projection.to_pixels)
-    editor.hold(None if again else event.point)
+def _toggle_held(state, event, tools):
+    held = state.fixed
+    again = held is not None and vertex_under(event, [held], event.projection.to_pixels)
+    return state.hold(None if again else tools.inside(event.point))
 
 
-def _remove_under(editor, event):
-    target = _vertex_target(editor, event)
-    if target is None:
-        return False
-    remove(editor, target)
-    return True
+def _remove_under(state, event):
+    target = _vertex_under(state, event)
+    return None if target is None else state.remove_vertex(target)
 
 
-def remove(editor, target) -> None:
-    """Remove a vertex, and select the one before it; the only one of the line under way cancels that."""
-    if target.name is None and len(editor.drawing.line(target)) == 1:
-        editor.cancel()
-        return
-    drawing = editor.drawing.removed(target)
-    editor.edit(drawing, replace(target, vertex=max(0, target.vertex - 1)))
+def _take_hold(state, event, tools):
+    """Take hold of a cut-off, of a vertex, or of a line, into which a vertex is inserted; None if there is none."""
+    chosen = state.selection
+    vertex_first = state.mode == LOOK and chosen is not None and chosen.kind == FAULT
+    holds = (_hold_vertex, _hold_cutoff) if vertex_first else (_hold_cutoff, _hold_vertex)
+    return next((held for hold in (*holds, _hold_line) if (held := hold(state, event, tools))), None)
 
 
-def _take_hold(editor, event):
-    """Take hold of a cut-off, a vertex, or a line, where a vertex is inserted; say whether there was one."""
-    chosen = editor.state.selection
-    vertex_first = editor.state.mode == LOOK and chosen is not None and chosen.kind == FAULT
-    kinds = (_hold_vertex, _hold_cutoff) if vertex_first else (_hold_cutoff, _hold_vertex)
-    return any(hold(editor, event) for hold in (*kinds, _hold_line))
+def _hold_vertex(state, event, tools):
+    target = _vertex_under(state, event)
+    return None if target is None else _hold(state, event, target, state.drawing)
 
 
-def _hold_vertex(editor, event):
-    target = _vertex_target(editor, event)
-    if target is None:
-        return False
-    _hold(editor, event, target, editor.drawing)
-    return True
-
-
-def _hold_line(editor, event):
-    if editor.drawing.draft:
-        return False
+def _hold_line(state, event, tools):
+    if state.drawing.draft:
+        return None
     found = [
         (hit[2], replace(target, vertex=hit[0]), hit[1])
-        for target, points in editor.editable()
-        if (hit := line_under(event, points, editor.projection.to_pixels))
+        for target, points in state.editable_lines()
+        if (hit := line_under(event, points, event.projection.to_pixels))
     ]
     if not found:
-        return False
+        return None
     _, target, point = min(found, key=lambda hit: hit[0])
-    base = editor.drawing.inserted(target, point)
-    _hold(editor, event, target, base)
-    editor.change(drawing=base, selection=target)
-    return True
+    base = state.drawing.inserted(target, point)
+    return _hold(state, event, target, base).draw(base, target)
 
 
-def _hold_cutoff(editor, event):
-    if editor.state.mode not in (LOOK, HORIZON) or editor.drawing.draft:
-        return False
-    mark = _cutoff_under(editor, event)
-    if mark is None:
-        return False
-    base, target = parted(editor.drawing, editor.view.section, mark)
-    _hold(editor, event, target, base, mark.fault)
-    if [len(piece) for piece in base.pick(HORIZON, mark.horizon).pieces] != [
-        len(piece) for piece in editor.drawing.pick(HORIZON, mark.horizon).pieces
-    ]:  # until it moves, the piece has no vertex there
-        editor.change(selection=PickSelection(HORIZON, mark.horizon))
-    return True
+def _hold_cutoff(state, event, tools):
+    if state.mode not in (LOOK, HORIZON) or state.drawing.draft:
+        return None
+    section = tools.viewport.section
+    handle = _cutoff_under(state, event, section)
+    if handle is None:
+        return None
+    base, target = parted(state.drawing, section, handle)
+    held = _hold(state, event, target, base, handle.fault)
+    before, after = (drawing.pick(HORIZON, handle.horizon).pieces for drawing in (state.drawing, base))
+    if list(map(len, before)) != list(map(len, after)):  # until it moves, the piece has no vertex there
+        return held.change(selection=PickSelection(HORIZON, handle.horizon))
+    return held
 
 
-def _hold(editor, event, target, base, fault=None):
-    drag = Drag(target, editor.drawing, editor.state.selection, base, event.pixel, event.pixel, fault)
-    editor.change(drag=drag, selection=target)
+def _hold(state, event, target, base, fault=None):
+    drag = Drag(target, state.drawing, state.selection, base, event.pixel, event.pixel, fault)
+    return state.change(drag=drag, selection=target)
 
 
-def _cutoff_under(editor, event):
-    """The cut-off under a press; of the two at one place, that in the wall in which the pointer is."""
-    marks = editor.cutoffs()
-    away = [vertex_under(event, [mark.inside], editor.projection.to_pixels) for mark in marks]
-    near = [(hit[1], mark) for hit, mark in zip(away, marks, strict=True) if hit]
+def _cutoff_under(state, event, section):
+    """The cut-off under a press; of two at one point, the one in the wall that the pointer is in."""
+    handles = cut_offs(state.drawing, section)
+    hits = [(vertex_under(event, [handle.inside], event.projection.to_pixels), handle) for handle in handles]
+    near = [(hit[1], handle) for hit, handle in hits if hit]
     if not near:
         return None
     fault = min(near, key=lambda hit: hit[0])[1].fault
-    wall = wall_of(editor.drawing, editor.view.section, fault, event.point)
+    wall = wall_of(state.drawing, section, fault, event.point)
     return min(near, key=lambda hit: (hit[1].fault != fault, hit[1].wall != wall, hit[0]))[1]
 
 
-def _vertex_target(editor, event):
+def _vertex_under(state, event):
     """The nearest vertex that can be taken hold of, or None."""
     found = [
         (hit[1], replace(target, vertex=hit[0]))
-        for target, points in editor.editable()
-        if (hit := vertex_under(event, points, partial(editor.projection.vertex_pixels, is_fault=target.kind == FAULT)))
+        for target, points in state.editable_lines()
+        if (hit := vertex_under(event, points, partial(event.projection.vertex_pixels, is_fault=target.kind == FAULT)))
     ]
     return min(found, key=lambda hit: hit[0])[1] if found else None
 
 
-def _select_under(editor, event):
-    target = _piece_under(editor, event)
-    if target:
-        editor.change(selection=target)
-    return target is not None
+def _select_under(state, event):
+    target = _piece_under(state, event)
+    return None if target is None else state.change(selection=target)
 
 
-def _piece_under(editor, event):
+def _piece_under(state, event):
     """The visible piece under a press, or None."""
     found = [
-        (hit[2], PickSelection(pick.kind, pick.name, number))
-        for pick in editor.drawing.picks
+        (hit[2], PickSelection(pick.kind, pick.name, piece))
+        for pick in state.drawing.picks
         if pick.visible
-        for number, points in enumerate(pick.pieces)
-        if (hit := line_under(event, points, editor.projection.to_pixels))
+        for piece, points in enumerate(pick.pieces)
+        if (hit := line_under(event, points, event.projection.to_pixels))
     ]
     return min(found, key=lambda hit: hit[0])[1] if found else None

@@ -1,4 +1,4 @@
-"""What a editor holds, as the lines and marks that a pane draws."""
+"""Lines and marks that a pane draws for the state of the editor."""
 
 from dataclasses import dataclass
 
@@ -6,8 +6,7 @@ import numpy as np
 
 from seiswidgets.interaction.cutoff_handles import CutOffHandle
 from seiswidgets.interaction.drawing import FAULT, PickSelection, Points
-from seiswidgets.interaction.editor import PickEditor
-from seiswidgets.interaction.editor_state import LOOK
+from seiswidgets.interaction.editor_state import LOOK, EditorState
 from seiswidgets.interaction.overlay import Mark, Stroke
 from seiswidgets.interaction.projection import PaneProjection
 
@@ -17,9 +16,9 @@ DASH = (6, 4)
 APART = 10.0  # css pixels between two dots of a line
 
 
-def strokes(editor: PickEditor, projection: PaneProjection) -> list[Stroke]:
+def strokes(state: EditorState, projection: PaneProjection) -> list[Stroke]:
     """All visible picks, the line under way, and the way from that to the keyboard cursor; then vertices, as dots."""
-    lines = list(_lines(editor))
+    lines = list(_lines(state))
     shown = projection.shown([(line.points, line.target.kind == FAULT) for line in lines])
     drawn = [line.stroke(seen) for line, seen in zip(lines, shown, strict=True)]
     open_lines = [line for line in lines if line.is_open]
@@ -52,45 +51,46 @@ class _Line:
         return Stroke(alone, self.colour, WIDTHS[self.is_selected], dots=True, chosen=chosen)
 
 
-def _lines(editor):
-    for pick in editor.drawing.picks:
+def _lines(state):
+    for pick in state.drawing.picks:
         if pick.visible:
             for number, points in enumerate(pick.pieces):
-                yield _line(editor, PickSelection(pick.kind, pick.name, number), points, pick.colour)
-    line, cursor = editor.drawing.draft, editor.state.cursor
+                yield _line(state, PickSelection(pick.kind, pick.name, number), points, pick.colour)
+    line, cursor = state.drawing.draft, state.cursor
     if line:
-        yield _line(editor, PickSelection(line.kind, None, 0), line.points, DRAFT)
+        yield _line(state, PickSelection(line.kind, None, 0), line.points, DRAFT)
     if line and cursor and cursor != line.points[-1]:
         yield _Line(PickSelection(line.kind, None), (line.points[-1], cursor), DRAFT, dash=DASH)
 
 
-def _line(editor, target, points, colour):
-    chosen = editor.state.selection
+def _line(state, target, points, colour):
+    chosen = state.selection
     is_selected = chosen is not None and (chosen.kind, chosen.name) == (target.kind, target.name)
-    is_open = target.name is None or editor.state.mode == target.kind or (is_selected and editor.state.mode == LOOK)
+    is_open = target.name is None or state.mode == target.kind or (is_selected and state.mode == LOOK)
     vertex = chosen.vertex if is_selected and chosen.piece == target.piece else None
     return _Line(target, points, colour, is_selected, is_open, vertex)
 
 
-def marks(editor: PickEditor, projection: PaneProjection, cutoffs: tuple[CutOffHandle, ...]) -> list[Mark]:
+def marks(state: EditorState, projection: PaneProjection, cutoffs: tuple[CutOffHandle, ...]) -> list[Mark]:
     """The cut-offs, numbered; the point that is held; the keyboard cursor."""
-    colours = {pick.name: pick.colour for pick in editor.drawing.picks if pick.kind == FAULT}
+    colours = {pick.name: pick.colour for pick in state.drawing.picks if pick.kind == FAULT}
     places = [(mark.inside, "cutoff", str(mark.number), colours[mark.fault]) for mark in cutoffs]
-    if editor.drawing.fixed:
-        places.append((editor.drawing.fixed, "held", "held", DRAFT))
-    if editor.state.cursor:
-        places.append((editor.state.cursor, "cursor", "", DRAFT))
+    if state.fixed:
+        places.append((state.fixed, "held", "held", DRAFT))
+    if state.cursor:
+        places.append((state.cursor, "cursor", "", DRAFT))
     points = projection.to_pane([point for point, *_ in places])
     return [
         Mark(tuple(at.tolist()), *rest) for at, (_, *rest) in zip(points, places, strict=True) if np.isfinite(at).all()
     ]
 
 
-def rubber(editor: PickEditor, projection: PaneProjection) -> list[tuple[float, float]]:
+def rubber(state: EditorState, projection: PaneProjection) -> list[tuple[float, float]]:
     """Where the line to the pointer starts; nowhere if no line is under way, or the keyboard leads it."""
-    if editor.rubber_band is None or editor.state.cursor:
+    draft = state.drawing.draft
+    if draft is None or state.cursor:
         return []
-    (start,) = projection.to_pane([editor.rubber_band])
+    (start,) = projection.to_pane([draft.points[-1]])
     return [tuple(start.tolist())] if np.isfinite(start).all() else []
 
 

@@ -66,9 +66,19 @@ def read_json(path: Path) -> "Entry":
     Raises
     ------
     DataError
-        As for `read_text`, or if it is not valid JSON; NaN and Infinity are not.
+        As for `read_text` and `parse_json`.
     """
-    text = read_text(path, MOST_JSON_BYTES)
+    return parse_json(read_text(path, MOST_JSON_BYTES), path)
+
+
+def parse_json(text: str, path: Path) -> "Entry":
+    """Parse a JSON text; errors name the path as its origin.
+
+    Raises
+    ------
+    DataError
+        If it is not valid JSON; NaN and Infinity are not.
+    """
     try:
         return Entry(json.loads(text, parse_constant=_refuse_constant), path)
     except RecursionError:

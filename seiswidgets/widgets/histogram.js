@@ -95,7 +95,6 @@ function drawMark(group, bars, i, scale, width, height) {
 
 function render({ model, el }) {
   el.classList.add("seiswidgets-histogram");
-  el.setAttribute("data-lm-suppress-shortcuts", "true"); // or JupyterLab would take the keys
   const head = line("head", el);
   const summary = line("summary", head);
   summary.title = "Half, 1% and 99% of the area have a lower area ratio";
@@ -179,7 +178,6 @@ function render({ model, el }) {
     else if (to === undefined) return;
     else brushBars(event.shiftKey && anchor !== null ? anchor : within(to, 0, last), within(to, 0, last));
     event.preventDefault();
-    event.stopPropagation();
   });
   listen("blur", () => chart.classList.remove("by-pointer"));
 
@@ -192,7 +190,9 @@ function render({ model, el }) {
   });
   watcher.observe(chart);
   paint();
+  const endKeeping = keepKeys(() => el);
   return () => {
+    endKeeping();
     ended.abort();
     watcher.disconnect();
     model.off(CHANGES, paint);

@@ -11,7 +11,8 @@ from traitlets import Dict, Float, List, Unicode, observe, validate
 from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
 from seiswidgets.errors import SettingError
 from seiswidgets.interaction.colour import RatioColouring
-from seiswidgets.widgets.section_view.pointer_layer import LAYER, joined
+from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.section_view.pointer_layer import KEEP_KEYS, LAYER, joined
 
 HERE = Path(__file__).parent
 EMPTY = "Nothing restored yet: there is no deformation to show."
@@ -19,7 +20,7 @@ ROUND = (1, 10, 0.1, 100, 0.01, 2, 0.5, 5, 0.2, 1.25, 0.8, 1.1, 0.9, 1.05, 0.95,
 APART = 0.09  # between two ticks at least, as a share of the axis
 
 
-class DeformationHistogram(anywidget.AnyWidget):
+class DeformationHistogram(WithParts, anywidget.AnyWidget):
     """The distribution of the area ratio, initial over final, in the colours of the deformation map.
 
     A drag brushes a range of whole bars, a click one bar, Shift+click up to another; a double click clears. With the
@@ -50,8 +51,8 @@ class DeformationHistogram(anywidget.AnyWidget):
         If there is no bin, or the brush is not a range of ratios above 0; and as for `show`.
     """
 
-    _esm = joined(LAYER / "svg.js", HERE / "histogram.js")
-    _css = HERE / "histogram.css"
+    _esm = joined(KEEP_KEYS, LAYER / "svg.js", HERE / "histogram.js")
+    _css = joined(HERE / "histogram.css")
 
     bars = Dict().tag(sync=True)
     summary = Unicode(EMPTY).tag(sync=True)

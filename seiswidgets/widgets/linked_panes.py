@@ -13,7 +13,10 @@ from seiswidgets.interaction.colour import RatioColouring, clip_limit
 from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
-from seiswidgets.widgets.section_view.canvas import LOCK, held
+from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.jobs import UI_LOCK
+from seiswidgets.widgets.key_guard import KeyGuard
+from seiswidgets.widgets.section_view.canvas import held
 from seiswidgets.widgets.section_view.pane import SectionPane
 from seiswidgets.widgets.section_view.still import still
 from seiswidgets.widgets.snapshot import Snapshot
@@ -47,7 +50,7 @@ class Reading:
     ratio: float
 
 
-class LinkedPanes(VBox):
+class LinkedPanes(WithParts, VBox):
     """Two panes: the cursor in one shows at its mapped place in the other, at once.
 
     Parameters
@@ -81,19 +84,20 @@ class LinkedPanes(VBox):
             restoration = Restoration(restoration)
         section = restoration.original
         self.original, self.restored = (SectionPane(section, height=height) for _ in range(2))
-        self._frame, self._readers, self._linking = None, [], False
+        self._snapshot, self._readers, self._links = None, [], []
+        self.restored.projection = self.projection
         self._readout = HTML(READOUT.format(""))
         self._tie_panes()
         columns = [VBox([HTML(HEADING.format(title)), pane]) for title, pane in self._titled()]
         panes = GridBox(columns, layout=Layout(grid_template_columns="minmax(0, 1fr) minmax(0, 1fr)", grid_gap="8px"))
-        super().__init__([panes, self._readout], restoration=restoration, **settings)
+        super().__init__([KeyGuard(), panes, self._readout], restoration=restoration, **settings)
 
     def _titled(self):
         return ("Today", self.original), ("Restored", self.restored)
 
     def _tie_panes(self):
         for one, other in ((self.original, self.restored), (self.restored, self.original)):
-            jslink((one.layer, "carried"), (other.layer, "linked"))
+            self._links.append(jslink((one.layer, "carried"), (other.layer, "linked")))
             one.on_hover(lambda point, pane=one: self._read(point, pane))
             one.observe(lambda change, pane=other: self._zoom_too(pane, change.new), "view")
         self.original.observe(self._share, SHARED)
@@ -103,16 +107,16 @@ class LinkedPanes(VBox):
     @property
     def shown(self) -> Snapshot:
         """What is drawn now."""
-        return self._frame
+        return self._snapshot
 
     def projection(self) -> PaneProjection:
-        """How the restored pane sees the section of today."""
-        return PaneProjection(self.restored.view, self._frame.restoration)
+        """How the restored pane shows the present-day section."""
+        return PaneProjection(self.restored.view, self._snapshot.restoration)
 
     def still(self) -> str:
         """What both panes show in full, as a PNG in base 64."""
         today, (title, restored) = self._titled()
-        return still([today, (title if self._frame.restoration.stages else "Not restored yet", restored)])
+        return still([today, (title if self._snapshot.restoration.stages else "Not restored yet", restored)])
 
     def _repr_mimebundle_(self, **kwargs):
         """Beside the panes themselves a picture of what they show, for readers without a kernel."""
@@ -123,62 +127,73 @@ class LinkedPanes(VBox):
         """Call a function with what is under the pointer, None where that is nothing."""
         self._readers.append(callback)
 
-    def show(self, frame: Snapshot) -> None:
-        """Draw a frame in both panes, all at once; but while something moves, the picture does not wait for the map."""
-        with LOCK:
+    def show(self, snapshot: Snapshot) -> None:
+        """Draw a snapshot in both panes at once; while something moves, the picture does not wait for the map."""
+        with UI_LOCK:
             with held():
-                self._draw_frame(frame)
-                if not frame.moving:
-                    self._make_room(frame)
+                self._draw_snapshot(snapshot)
+                if not snapshot.moving:
+                    self._make_room(snapshot)
                     self._draw_ratio()
-            if frame.moving:
+            if snapshot.moving:
                 self._draw_ratio()
 
-    def _draw_frame(self, frame):
+    def _draw_snapshot(self, snapshot):
         """The sections, the mesh, and how points are carried between them."""
-        old, self._frame = self._frame, frame
-        if self.original.section is not frame.restoration.original:
-            self.original.show(frame.restoration.original)
-        self.restored.show(frame.section, moving=frame.moving)
-        if old is None or old.restoration is not frame.restoration:
-            self.original.carry(frame.restoration.maps_to_restored)
-            self.restored.carry(frame.restoration.maps_to_original)
+        old, self._snapshot = self._snapshot, snapshot
+        if self.original.section is not snapshot.restoration.original:
+            for pane in (self.original, self.restored):
+                pane.frame = None
+                pane.fit()
+            self.original.show(snapshot.restoration.original)
+        self.restored.show(snapshot.section, moving=snapshot.moving)
+        self._mark_restored(snapshot.verdict)
+        if old is None or old.restoration is not snapshot.restoration:
+            self.original.carry(snapshot.restoration.maps_to_restored)
+            self.restored.carry(snapshot.restoration.maps_to_original)
         self._draw_mesh()
+
+    def _mark_restored(self, verdict):
+        """Mark the restored picture where the result has a problem or a warning."""
+        if verdict is None or verdict.is_good:
+            self.restored.badge.hide()
+        else:
+            self.restored.badge.show(verdict.severity, verdict.title)
 
     @observe("restoration")
     def _take_restoration(self, change):
-        if self._frame is None or self._frame.restoration is not self.restoration or self._frame.moving:
+        if self._snapshot is None or self._snapshot.restoration is not self.restoration or self._snapshot.moving:
             self.show(Snapshot.of(self.restoration))
 
     @observe("mesh")
     def _draw_mesh(self, change=None):
-        stages = self._frame.restoration.stages if self._frame else ()
+        stages = self._snapshot.restoration.stages if self._snapshot else ()
         for pane in (self.original, self.restored):
             pane.mesh_opacity = self.mesh
         if not (stages and self.mesh):
             self.original.mesh = self.restored.mesh = None
             return
-        section = self._frame.restoration.original
+        section = self._snapshot.restoration.original
         first, last = stages[0], stages[-1]
         self.original.mesh = section.from_rock(first.mesh.vertices), first.mesh.triangles
         self.restored.mesh = section.from_rock(last.vertices), last.mesh.triangles
 
     @observe("deformation", "brush")
     def _draw_ratio(self, change=None):
-        frame = self._frame
+        snapshot = self._snapshot
         for pane in (self.original, self.restored):
             pane.overlay_opacity = self.deformation
-        if not (frame and frame.restoration.stages and self.deformation):
+        if not (snapshot and snapshot.restoration.stages and self.deformation):
             self.original.overlay = self.restored.overlay = None
             return
-        colouring = RatioColouring.of(frame.ratio_before.ratio)
+        colouring = RatioColouring.of(snapshot.ratio_before.ratio)
         palette = colouring.palette(self.brush or None)
-        for pane, drawn in ((self.original, frame.ratio_before), (self.restored, frame.ratio_after)):
+        for pane, drawn in ((self.original, snapshot.ratio_before), (self.restored, snapshot.ratio_after)):
             pane.overlay = Overlay(colouring.levels(drawn.ratio), palette, drawn.window)
 
-    def _make_room(self, frame):
+    def _make_room(self, snapshot):
         """Let both panes fit all of the rock, before and after, at one scale."""
-        windows = [Viewport(section).whole for section in (frame.restoration.original, frame.section)]
+        windows = [Viewport(section).whole for section in (snapshot.restoration.original, snapshot.section)]
         low, high = np.min(windows, axis=0), np.max(windows, axis=0)
         wanted = low[0], high[1], low[2], high[3]
         now = self.original.frame or windows[0]
@@ -198,12 +213,8 @@ class LinkedPanes(VBox):
         self._zoom_too(self.restored, self.original.view)
 
     def _zoom_too(self, pane, view):
-        if self.zoom_linked and not self._linking:
-            self._linking = True
-            try:
-                pane.view = replace(pane.view, window=view.window)
-            finally:
-                self._linking = False
+        if self.zoom_linked and pane.view.window != view.window:
+            pane.view = replace(pane.view, window=view.window)
 
     def _read(self, point, pane):
         reading = None if point is None else self._reading(point, pane)
@@ -212,7 +223,7 @@ class LinkedPanes(VBox):
             reader(reading)
 
     def _reading(self, point, pane):
-        restoration = self._frame.restoration
+        restoration = self._snapshot.restoration
         if pane is self.original:
             before, after = point, restoration.to_restored([point])[0]
         else:
@@ -223,7 +234,7 @@ class LinkedPanes(VBox):
         return Reading(tuple(map(float, before)), tuple(map(float, after)), _amplitude(section, before), float(ratio))
 
     def _words(self, reading):
-        section = self._frame.restoration.original
+        section = self._snapshot.restoration.original
         height = "two-way time" if section.is_time else "depth"
         parts = [
             f"{name}: x {at[0]:.6g} {section.x_unit}, {height} {at[1]:.6g} {section.z_unit}"

@@ -14,5 +14,10 @@ def in_words(error: Exception) -> str:
     """What an error says; one that is not ours is logged too, as it is a mistake in seiswidgets."""
     if isinstance(error, SeiswidgetsError):
         return error.text
-    _log.error("an action in the background failed", exc_info=error)
+    log_error(error)
     return f"this should not have happened: {type(error).__name__}: {error}"
+
+
+def log_error(error: Exception) -> None:
+    """Log an error that is a mistake in seiswidgets."""
+    _log.error("a background job failed", exc_info=error)

@@ -1,27 +1,29 @@
-"""Draw faults and horizons on a section: a pane, its tools, and the list of what is picked."""
+"""Draw faults and horizons on a section: a pane, its tools, and the list of picks."""
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterable
 
-import numpy as np
 from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
 from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
 
-from seiswidgets.errors import SettingError
+from seiswidgets.geology import validation
+from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import Section
+from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import HORIZON, Drawing
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES
-from seiswidgets.interaction.gestures import Gesture, Key, Press, Release
-from seiswidgets.interaction.projection import PaneProjection
+from seiswidgets.interaction.gestures import Gesture
 from seiswidgets.interaction.scene import marks, rubber, strokes
 from seiswidgets.interaction.snapping import EVENTS, followed, snapped
+from seiswidgets.widgets.binding import bind, bind_control
+from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.jobs import UI_LOCK
+from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panels.picks_list import PicksList
-from seiswidgets.widgets.section_view.canvas import LOCK
 from seiswidgets.widgets.section_view.pane import SectionPane
-from seiswidgets.widgets.ties import tie
+from seiswidgets.widgets.workspace import Workspace
 
 OFF = "off"
 ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
@@ -39,173 +41,169 @@ MODE_NAMES = {
 }
 
 
-class Picker(VBox):
+class Picker(WithParts, VBox):
     """A section on which faults and horizons are drawn; every edit can be undone.
 
     The modes are look, fault, horizon, and hold. In fault and horizon mode a click adds a vertex, a double click or
     Enter finishes the line, Escape drops it; a vertex or a cut-off is dragged, and removed by Ctrl-click or Delete.
-    The whole can be done by keyboard: L, F, H, B choose the mode, Enter shows a cursor which the arrows move, Space
+    Everything can be done by keyboard: L, F, H, B choose the mode, Enter shows a cursor which the arrows move, Space
     puts a vertex there. The module `seiswidgets.interaction.editor` has the table of all gestures.
 
     Parameters
     ----------
     section : Section or SectionPane
-        What is drawn on, or the pane that shows it.
+        The section to draw on, or the pane that shows it.
+    workspace : Workspace, optional
+        The owner of what is drawn; one of its own if left out.
     **settings
         Initial values of the attributes.
 
     Attributes
     ----------
     interpretation : Interpretation
-        What is drawn; may be set, which can be undone.
+        Picks that are finished and valid; may be set, which can be undone.
     fixed : (x, z) or None
         A point in the block that is held.
     mode : {"look", "fault", "horizon", "block"}
     snap : {"off", "peak", "trough", "zero-up", "zero-down"}
         The event that a horizon's vertices snap to.
     window : float
-        How many samples they may move.
+        Number of samples that they may move.
     follow : bool
         Whether the line between two clicks follows the event.
     dragging : bool
         Whether something is being dragged.
-    drawing : Drawing
-        All that is drawn, with its looks, even what is not valid; it follows, but for a drag, which it waits for.
     """
 
-    interpretation = Instance(Interpretation, ())
+    interpretation = Instance(Interpretation)
     fixed = Any(None, allow_none=True)
     mode = Enum(MODES, LOOK)
     snap = Enum((OFF, *EVENTS), OFF)
     window = Float(5.0)
     follow = Bool(False)
     dragging = Bool(False)
-    drawing = Instance(Drawing, ())
 
-    def __init__(self, section: Section | SectionPane, **settings):
+    def __init__(self, section: Section | SectionPane, *, workspace: Workspace | None = None, **settings):
         self.pane = section if isinstance(section, SectionPane) else SectionPane(section)
-        self.editor = PickEditor(self.pane.view)
-        self._panes, self._grip, self._complaints, self._quiet = [], None, {}, False
-        self._told = self.editor.interpretation
+        self.workspace = workspace or Workspace(self.pane.section)
+        self.editor = PickEditor(self.workspace.history, self.pane.view)
+        self._others: list[SectionPane] = []
+        self._drawn: dict[SectionPane, tuple] = {}
+        self._complaints: dict[str, tuple[str, str]] = {}
         self.list = PicksList(self.editor, self.refresh)
         self.toolbar = self._made_toolbar()
-        super().__init__([self.toolbar, self.pane, self.list])
+        super().__init__([KeyGuard(), self.toolbar, self.pane, self.list])
         keep_order(self)
-        self.pane.observe(self._take_view, "view")
-        self.attach(self.pane, lambda: PaneProjection(self.pane.view))
+        self._bind()
+        self.attach(self.pane)
+        self.borrowed = (section,) if isinstance(section, SectionPane) else ()
         for name, value in settings.items():
             setattr(self, name, value)
-        self.editor.forget()
+        self.workspace.history.forget()
         self.refresh()
 
-    def attach(self, pane: SectionPane, projection: Callable[[], PaneProjection]) -> None:
-        """Draw in a further pane too, which shows the section in a way of its own."""
-        self._panes.append((pane, projection))
+    @property
+    def drawing(self) -> Drawing:
+        """All picks with their looks, even those that cannot be used, and the draft line."""
+        return self.workspace.drawing
+
+    def attach(self, pane: SectionPane) -> None:
+        """Draw in a further pane too, by its own projection."""
+        if pane is not self.pane:
+            self._others.append(pane)
+            self.borrowed += (pane,)
         pane.take_keys(KEYS)
-        pane.on_gesture(lambda gesture: self._handle(gesture, projection))
+        pane.on_gesture(lambda gesture: self.comm is not None and self._handle(gesture))
         self.refresh()
 
-    def begin(self, drawing: Drawing) -> None:
-        """Start anew with other picks, on the section that the pane shows now; there is nothing to undo then."""
-        self.editor.begin(drawing)
-        self._grip, self._complaints = None, {}
-        self._set_snapping()
-        self.refresh()
+    def complain(self, error: Exception, severity: str = "problem") -> None:
+        """Show an error beside the pick that it is about, instead of earlier findings and complaints."""
+        pick = getattr(error, "pick", None)
+        self._complain_about({pick: (severity, str(error))} if pick else {})
 
-    def take(self, drawing: Drawing) -> None:
-        """Take other picks, with their looks; that can be undone."""
-        self.editor.edit(drawing)
-        self.refresh()
+    def show_findings(self, findings: Iterable[Finding]) -> None:
+        """Show beside each pick the worst finding about it, instead of earlier ones and complaints."""
+        about = [finding for finding in worst_first(findings) if finding.pick is not None]
+        self._complain_about({finding.pick: (finding.severity, finding.text) for finding in reversed(about)})
 
-    def complain(self, text: str) -> None:
-        """Say beside a pick what is wrong: the first that the text names is the one that it is about."""
-        places = {pick.name: text.find(repr(pick.name)) for pick in self.drawing.picks}
-        named = sorted((place, name) for name, place in places.items() if place >= 0)
-        self._complaints = {name: text for _, name in named[:1]}
+    def _complain_about(self, complaints):
+        self._complaints = complaints
         self.list.update(self._wrong())
 
     def refresh(self) -> None:
-        """Show the editor's state everywhere, first on the present-day section."""
-        with LOCK:
-            cutoffs = self.editor.cutoffs()
-            self._draw(self._panes[:1], cutoffs)
-            self.list.update(self._wrong())
-            self._undo.disabled, self._redo.disabled = not self.editor.can_undo, not self.editor.can_redo
-            self._finish.disabled = self.editor.drawing.draft is None
-            self._tell()
-            self._draw(self._panes[1:], cutoffs)
+        """Show the editor's state in all panes, in the list and in the toolbar."""
+        with UI_LOCK:
+            self._show_state()
+            self.redraw()
 
     def redraw(self) -> None:
-        """Draw the lines anew in the panes that show the section in a way of their own, as that has changed."""
-        if not self._quiet:  # else they are drawn in a moment anyway
-            self._draw(self._panes[1:], self.editor.cutoffs())
+        """Draw the lines anew in the other panes, whose projections have changed."""
+        for pane in self._others:
+            self._draw(pane)
 
-    def _draw(self, panes, cutoffs):
-        for pane, projection in panes:
-            seen = projection()
-            pane.draw_lines(strokes(self.editor, seen))
-            pane.draw_marks(marks(self.editor, seen, cutoffs))
-            pane.rubber = rubber(self.editor, seen)
+    def _bind(self):
+        workspace, editor = self.workspace, self.editor
+        workspace.observe(self._take_document, "document")
+        bind(self, "interpretation", workspace, lambda document: document.drawing.interpretation, editor.load)
+        bind(self, "fixed", workspace, lambda document: document.plan.fixed, editor.hold)
+        self.pane.observe(lambda change: setattr(self.editor, "viewport", change.new), "view")
+        self.observe(lambda change: self._enter(change.new), "mode")
 
-    def _tell(self):
-        """Let the traits follow the editor."""
-        self._quiet = True
-        try:
-            self.mode, self.dragging = self.editor.state.mode, self.editor.state.drag is not None
-            self.fixed = self.editor.drawing.fixed
-            if not self.dragging:
-                self.drawing = self.editor.drawing
-            if self.editor.interpretation is not self._told:
-                self.interpretation = self._told = self.editor.interpretation
-        finally:
-            self._quiet = False
+    def _take_document(self, change):
+        if isinstance(change.old, Document) and change.old.section is not change.new.section:
+            self.editor.reset()
+            self._complaints = {}
+            self._set_snapping()
+        self._show_state()  # other panes follow once the restoration does
+
+    def _show_state(self):
+        history, state = self.workspace.history, self.editor.state
+        self._draw(self.pane)
+        self.list.update(self._wrong())
+        self._show_history(self._undo, "undo", history.next_undo, "Ctrl+Z")
+        self._show_history(self._redo, "do again", history.next_redo, "Ctrl+Y")
+        self._finish.disabled = state.drawing.draft is None
+        self.mode, self.dragging = state.mode, state.drag is not None
+
+    def _enter(self, mode):
+        self.editor.enter(mode)
+        self.refresh()
+
+    def _draw(self, pane):
+        state, projection = self.editor.state, pane.projection()
+        shown = state, projection.view, projection.restoration
+        if self._drawn.get(pane) == shown:
+            return
+        self._drawn[pane] = shown
+        pane.draw_lines(strokes(state, projection))
+        pane.draw_marks(marks(state, projection, self.editor.cutoffs()))
+        pane.rubber = rubber(state, projection)
+
+    def _show_history(self, button, action, entry, keys):
+        button.disabled = entry is None
+        button.tooltip = f"{action}: {entry.label} ({keys})" if entry else f"{action} ({keys})"
 
     def _wrong(self):
-        return {**self._complaints, **dict(self.editor.problems)}
+        return {**self._complaints, **{name: ("problem", text) for name, text in dict(self.editor.problems).items()}}
 
-    def _handle(self, gesture: Gesture, projection):
-        """Let the editor do what a gesture asks; during a drag, as the pane was when it began."""
-        seen = self._grip or projection()
-        if not isinstance(gesture, Key):
-            gesture = replace(gesture, point=seen.to_original(gesture.point))
+    def _handle(self, gesture: Gesture) -> bool:
         before = self.editor.state
-        used = self.editor.handle(gesture, seen)
-        if isinstance(gesture, Press):
-            self._grip = seen if self.editor.state.drag else None
-        elif isinstance(gesture, Release):
-            self._grip = None
+        consumed = self.editor.handle(gesture)
         if self.editor.state != before:
             self.refresh()
-        return used
+        return consumed
 
-    def _take_view(self, change):
-        self.editor.view = self.pane.view
+    @validate("interpretation")
+    def _valid_interpretation(self, proposal):
+        return self.workspace.as_drawn(proposal.value)
 
     @validate("fixed")
     def _valid_fixed(self, proposal):
-        if proposal.value is None:
-            return None
-        point = np.asarray(proposal.value, float)
-        if point.shape != (2,) or not np.isfinite(point).all():
-            raise SettingError(f"fixed must be a point (x, z) or None, but is {proposal.value!r}")
-        return tuple(point.tolist())
-
-    @observe("interpretation", "fixed", "mode")
-    def _take(self, change):
-        if self._quiet:
-            return
-        if change.name == "interpretation":
-            self.editor.load(change.new)
-            self._told = self.editor.interpretation  # the same as what was set, so that nobody is told twice
-        elif change.name == "fixed":
-            self.editor.hold(change.new)
-        else:
-            self.editor.enter(change.new)
-        self.refresh()
+        return None if proposal.value is None else validation.held_point(proposal.value)
 
     @observe("snap", "window", "follow")
     def _set_snapping(self, change=None):
-        section, event, window = self.pane.section, self.snap, self.window
+        section, event, window = self.workspace.section, self.snap, self.window
         self.editor.snap = self.editor.follow = None
         if event != OFF:
             self.editor.snap = lambda point: snapped(section, point, event, window)
@@ -218,13 +216,13 @@ class Picker(VBox):
             tooltips=[text for _, text in MODE_NAMES.values()],
             style={"button_width": "auto"},
         )
-        self._undo = _button("undo", "undo (Ctrl+Z)", self.editor.undo, self.refresh)
-        self._redo = _button("repeat", "do again (Ctrl+Y)", self.editor.redo, self.refresh)
-        self._finish = _button("check", "finish the line (Enter)", self.editor.finish, self.refresh)
-        new = _button("plus", "the next line is a horizon of its own (Escape)", self._begin_horizon, self.refresh)
+        self._undo = self._button("undo", "undo (Ctrl+Z)", self.editor.undo)
+        self._redo = self._button("repeat", "do again (Ctrl+Y)", self.editor.redo)
+        self._finish = self._button("check", "finish the line (Enter)", self.editor.finish)
+        new = self._button("plus", "the next line is a horizon of its own (Escape)", self._begin_horizon)
         snap = Dropdown(
             options=[("no snapping", OFF), *((f"snap to {event}", event) for event in EVENTS)],
-            tooltip="what the vertices of horizons snap to",
+            tooltip="the event that the vertices of horizons snap to",
             layout=Layout(width="150px"),
         )
         follow = ToggleButton(
@@ -240,7 +238,7 @@ class Picker(VBox):
             layout=Layout(width="132px"),
         )
         for widget, name in ((modes, "mode"), (snap, "snap"), (window, "window"), (follow, "follow")):
-            tie(self, name, widget)
+            bind_control(self, name, widget)
         tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, window, follow])]
         return Box(
             tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 10px")
@@ -250,13 +248,12 @@ class Picker(VBox):
         self.editor.enter(HORIZON)
         self.editor.deselect()
 
+    def _button(self, icon, tooltip, action: Callable[[], object]):
+        def act(_):
+            with UI_LOCK:
+                action()
+                self.refresh()
 
-def _button(icon, tooltip, action, after):
-    def act(_):
-        with LOCK:
-            action()
-            after()
-
-    button = Button(icon=icon, tooltip=tooltip, layout=Layout(width="36px"))
-    button.on_click(act)
-    return button
+        button = Button(icon=icon, tooltip=tooltip, layout=Layout(width="36px"))
+        button.on_click(act)
+        return button

@@ -1,15 +1,13 @@
-"""Restores while the user works: at once on a coarse mesh, and on the full one when things have come to rest."""
+"""Restoration while the user works: a preview on a coarse mesh at once, and the full mesh at rest."""
 
 import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 from seiswidgets.errors import Cancelled, SeiswidgetsError
 from seiswidgets.geology.plan import RestorationJob
-from seiswidgets.widgets.jobs import Worker
-from seiswidgets.widgets.section_view.canvas import LOCK
+from seiswidgets.widgets.jobs import UI_LOCK, Job, JobRunner
 from seiswidgets.widgets.snapshot import Snapshot
 
 BUDGET = 0.6  # seconds that a quick look may take; where it would take longer, there is none
@@ -40,91 +38,84 @@ class Progress:
 
 
 class Restorer:
-    """Carries out the newest of the tasks it is given.
+    """Carries out the newest of the restorations it is asked for.
 
-    The quick look is made where it is asked for, so that nothing newer can be known while it is made: what is drawn
-    is never stale. The full restoration is made on a thread, and given up as soon as something newer is asked for.
+    A preview is computed where it is asked for, so that nothing newer can be known meanwhile. The full restoration runs
+    in the background, and is dropped as soon as something newer is asked for.
 
     Parameters
     ----------
     show : callable(Snapshot, Restoration or None)
-        Draws a frame; with the restoration if it is the full one.
-    tell : callable(Progress or None)
-        Says how far the full restoration is; None when it has ended.
+        Draws a snapshot; the restoration is given if it is the full one.
+    report : callable(Progress or None)
+        Shows the progress of the full restoration; None when it has ended.
     fail : callable(Exception)
         Says why there is no restoration.
 
-    All three are called with the lock of the canvases held, but for ``tell``.
+    All three are called with ``UI_LOCK`` held.
     """
 
-    def __init__(self, show: Callable, tell: Callable, fail: Callable):
-        self._show, self._tell, self._fail = show, tell, fail
-        self._worker = Worker()
-        self._quick = self._full = None  # the newest (task, restoration) of either kind
+    def __init__(self, show: Callable, report: Callable, fail: Callable):
+        self._show, self._report, self._fail = show, report, fail
+        self._runner = JobRunner()
+        self._quick = self._full = None  # the newest (job, restoration) of either kind
 
-    def preview(self, task: RestorationJob) -> None:
-        """Make a quick look of a task and draw it, if that can be done at once."""
-        self._worker.cancel()
+    def preview(self, job: RestorationJob) -> None:
+        """Compute a preview and draw it, if that can be done within the budget."""
+        self._runner.drop()
         end = time.monotonic() + BUDGET
         try:
-            coarse = task.coarse
+            coarse = job.coarse
             restoration = coarse.restored(self._quick or self._full, lambda *_: time.monotonic() < end)
-            frame = Snapshot.of(restoration, moving=True)
+            snapshot = Snapshot.of(restoration, moving=True)
         except Cancelled:
             return
         except SeiswidgetsError as error:
-            with LOCK:
+            with UI_LOCK:
                 self._fail(error)
             return
-        with LOCK:
+        with UI_LOCK:
             self._quick = coarse, restoration
-            self._show(frame, None)
+            self._show(snapshot, None)
 
-    def restore(self, task: RestorationJob, delay: float = 0.0) -> None:
-        """Carry a task out in full, after so many seconds unless something newer comes."""
-        self._worker.ask(lambda wanted: self._carry_out(task, wanted), delay)
+    def restore(self, job: RestorationJob, delay: float = 0.0) -> None:
+        """Restore in full, after a delay in seconds unless something newer comes."""
+        self._runner.submit(Job(lambda own: self._restored(job, own), self._done, self._failed), delay)
 
     def cancel(self) -> None:
-        """Give up what is under way."""
-        self._worker.cancel()
-        self._tell(None)
+        """Drop the restoration in progress."""
+        self._runner.drop()
+        self._report(None)
 
     def forget(self) -> None:
-        """Give up what is under way, and start nothing from what has been: it was of another section."""
+        """Drop the restoration in progress, and start none from earlier ones, as for another section."""
         self.cancel()
         self._quick = self._full = None
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until all is done; False if that took too long."""
-        return self._worker.wait(timeout)
+        """Wait until nothing is left to do; False after the timeout in seconds."""
+        return self._runner.wait(timeout)
 
-    def _carry_out(self, task, wanted):
-        steps, last = task.steps, -math.inf
+    def _restored(self, job, own):
+        steps, last = job.steps, -math.inf
 
         def progress(step, iteration, energy):
             nonlocal last
             now = time.monotonic()
-            if wanted() and now - last > BETWEEN:
+            if own.wanted and now - last > BETWEEN:
                 last = now
-                self._tell(Progress(step, len(steps), steps[step].kind, iteration, energy))
-            return wanted()
+                self._report(Progress(step, len(steps), steps[step].kind, iteration, energy))
+            return own.wanted
 
-        try:
-            restoration = task.restored(self._full or self._quick, progress)
-            frame = Snapshot.of(restoration)
-        except Cancelled:
-            return
-        except Exception as error:  # noqa: BLE001 - nobody else would hear of it on this thread
-            self._end(wanted, partial(self._fail, error))
-            return
-        self._end(wanted, lambda: self._done(task, restoration, frame))
+        restoration = job.restored(self._full or self._quick, progress)
+        return job, restoration, Snapshot.of(restoration)
 
-    def _end(self, wanted, action):
-        with LOCK:
-            if wanted():
-                self._tell(None)
-                action()
+    def _done(self, result):
+        job, restoration, snapshot = result
+        self._full, self._quick = (job, restoration), None
+        self._report(None)
+        self._show(snapshot, restoration)
 
-    def _done(self, task, restoration, frame):
-        self._full, self._quick = (task, restoration), None
-        self._show(frame, restoration)
+    def _failed(self, error):
+        self._report(None)
+        self._fail(error)

@@ -8,6 +8,7 @@ import numpy as np
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.viewport import Viewport, Window
+from seiswidgets.widgets.verdict import Verdict
 
 PICTURE = 50_000  # samples of a picture while something moves
 RATIOS, RATIOS_MOVING = 60_000, 5_000  # places at which the area ratio is taken
@@ -39,17 +40,21 @@ class Snapshot:
         The restored one.
     moving : bool
         Whether it is one of many in quick succession, and coarse.
+    verdict : Verdict or None
+        None of a quick look, which is not checked, and where nothing has been restored.
     """
 
     restoration: Restoration
     section: Section
     moving: bool = False
+    verdict: Verdict | None = None
 
     @classmethod
     def of(cls, restoration: Restoration, *, moving: bool = False) -> "Snapshot":
         """The picture of a restoration: cubic, or while something moves, linear and of fewer samples."""
         section = restoration.picture(order=1, cells=PICTURE) if moving else restoration.section
-        return cls(restoration, section, moving)
+        checked = restoration.stages and not restoration.quick
+        return cls(restoration, section, moving, Verdict.of(restoration) if checked else None)
 
     @cached_property
     def ratio_before(self) -> RatioMap:

@@ -6,9 +6,17 @@ from html import escape
 from ipywidgets import HTML, Box, Button, FloatProgress, HBox, Label, Layout, ToggleButton
 from traitlets import Bool, Unicode
 
+from seiswidgets.widgets.binding import bind_control
 from seiswidgets.widgets.messages import HINT, TROUBLE
-from seiswidgets.widgets.ties import tie
+from seiswidgets.widgets.severity import LOOKS, label
+from seiswidgets.widgets.verdict import Verdict
 
+BUSY = "Restoring…"
+VERDICT = (  # two lines at most, for which there is room: the panes below must not jump
+    '<div role="{role}" title="{whole}" style="display: flex; align-items: center; gap: 8px; line-height: 1.2; '
+    'color: var(--jp-ui-font-color1, #212121)">{label}<span style="display: -webkit-box; -webkit-box-orient: vertical; '
+    '-webkit-line-clamp: 2; overflow: hidden">{text}</span><span style="flex: none">{rest}</span></div>'
+)
 HALF = 4.0  # iterations after which the bar of a step has come half its way
 
 
@@ -32,20 +40,25 @@ class StatusBar(Box):
     text = Unicode()
 
     def __init__(self, restore: Callable[[], None], cancel: Callable[[], None]):
-        button = Button(description="Restore", icon="play", button_style="primary", tooltip="restore the section now")
-        live = ToggleButton(description="Live", icon="bolt", tooltip="restore by itself after every change")
+        auto = {"width": "auto"}
+        button = Button(
+            description="Restore", icon="play", button_style="primary", tooltip="restore the section now", layout=auto
+        )
+        live = ToggleButton(
+            description="Live", icon="bolt", tooltip="restore by itself after every change", layout=auto
+        )
         self._bar = FloatProgress(min=0, max=1, layout=Layout(width="100px"))
         self._label = Label(layout=Layout(width="270px"))
-        self._cancel = Button(description="Cancel", icon="stop", tooltip="give up the restoration that is under way")
-        for widget in (button, live, self._cancel):
-            widget.layout = Layout(width="auto")
+        self._cancel = Button(
+            description="Cancel", icon="stop", tooltip="give up the restoration that is under way", layout=auto
+        )
         self._progress = HBox([self._bar, self._label, self._cancel], layout=Layout(display="none"))
         self._line = HTML(layout=Layout(flex="1 1 0", min_width="0", margin="2px"))
         button.on_click(lambda _: restore())
         self._cancel.on_click(lambda _: cancel())
         self.buttons = HBox([button, live])
-        super().__init__([self._line, self._progress], layout=Layout(align_items="center", min_height="36px"))
-        tie(self, "live", live)
+        super().__init__([self._line, self._progress], layout=Layout(align_items="center", min_height="42px"))
+        bind_control(self, "live", live)
 
     def tell(self, progress) -> None:
         """Show how far a restoration is; None when none is under way."""
@@ -62,6 +75,21 @@ class StatusBar(Box):
     def alert(self, text: str) -> None:
         """Say what is wrong."""
         self._say(TROUBLE, text)
+
+    def show_busy(self) -> None:
+        """Say that a newer result is on its way, in the place of the verdict on an older one."""
+        self.hint(BUSY)
+
+    def judge(self, verdict: Verdict) -> None:
+        """Show the verdict on a restoration: its label, and one sentence."""
+        self.text = str(verdict)
+        self._line.value = VERDICT.format(
+            role=LOOKS[verdict.severity].role,
+            whole=escape(self.text),
+            label=label(verdict.severity, verdict.title),
+            text=escape(verdict.text),
+            rest=escape(verdict.rest),
+        )
 
     def _say(self, look, text):
         self.text = text

@@ -6,12 +6,14 @@ from ipywidgets import HBox, IntSlider, Label, Layout, Play, jslink
 from traitlets import Float, List, Unicode, observe, validate
 
 from seiswidgets.errors import SettingError
+from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.key_guard import KeyGuard
 
 FRAMES = 20  # a step
 INTERVAL = 100  # ms from frame to frame
 
 
-class Timeline(HBox):
+class Timeline(WithParts, HBox):
     """A moment between the section of today and the restored one, on a slider with Play.
 
     Play runs to the end once, from today if it is at the end. With the keyboard: Tab goes to Play and to the slider,
@@ -53,7 +55,7 @@ class Timeline(HBox):
         self._text = Label(layout=Layout(flex="0 0 auto", min_width="104px"))
         self._link = jslink((self._play, "value"), (self._slider, "value"))
         self._slider.observe(self._follow, "value")
-        super().__init__([self._play, self._slider, self._text], **traits)
+        super().__init__([KeyGuard(), self._play, self._slider, self._text], **traits)
         self.labels = list(labels)
         self._take_labels()
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import seiswidgets as sw
 from seiswidgets.geology.cutoffs import heave, throw
 from seiswidgets.interaction import editor as module
+from seiswidgets.interaction.document import Document, EditHistory
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import MODES
@@ -20,6 +21,7 @@ from seiswidgets.interaction.viewport import Viewport
 
 SECTION = sw.Section(np.random.default_rng(1).normal(size=(61, 91)), dx=10.0, dz=10.0)  # 900 m x 600 m
 VIEW = Viewport(SECTION, 910, 610)  # a pixel a metre
+PLAIN = PaneProjection(VIEW)  # of a pane that shows the present-day section
 CTRL, SHIFT = frozenset({"ctrl"}), frozenset({"shift"})
 FAULT = [(400.0, 100.0), (450.0, 300.0), (500.0, 500.0)]
 LEFT, RIGHT = [(50.0, 250.0), (250.0, 260.0), (430.0, 220.0)], [(470.0, 380.0), (850.0, 390.0)]
@@ -30,31 +32,32 @@ PICKS = sw.Interpretation(  # a horizon of two pieces that end at the fault, and
 )
 
 
-def pen_of(view, interpretation, fixed=None):
-    """A editor that starts with some picks."""
-    return PickEditor(view, Drawing().with_interpretation(interpretation).held(fixed))
+def editor_of(view, interpretation=None, fixed=None, **tools):
+    """An editor that starts with some picks."""
+    drawing = Drawing().with_interpretation(interpretation or sw.Interpretation())
+    return PickEditor(EditHistory(Document(view.section, drawing, sw.Plan(fixed=fixed))), view, **tools)
 
 
 @pytest.fixture
 def editor():
-    return PickEditor(VIEW)
+    return editor_of(VIEW)
 
 
 @pytest.fixture
 def drawn():
-    return pen_of(VIEW, PICKS, (100.0, 100.0))
+    return editor_of(VIEW, PICKS, (100.0, 100.0))
 
 
 def press(editor, point, modifiers=frozenset(), button=0):
-    return editor.handle(Press(point, tuple(VIEW.to_pixels(point)), button, modifiers))
+    return editor.handle(Press(point, tuple(VIEW.to_pixels(point)), PLAIN, button, modifiers))
 
 
 def move(editor, point, modifiers=frozenset()):
-    return editor.handle(Move(point, tuple(VIEW.to_pixels(point)), modifiers))
+    return editor.handle(Move(point, tuple(VIEW.to_pixels(point)), PLAIN, modifiers))
 
 
 def release(editor, point, **options):
-    return editor.handle(Release(point, tuple(VIEW.to_pixels(point)), **options))
+    return editor.handle(Release(point, tuple(VIEW.to_pixels(point)), PLAIN, **options))
 
 
 def click(editor, point, modifiers=frozenset()):
@@ -64,7 +67,7 @@ def click(editor, point, modifiers=frozenset()):
 def double_click(editor, point):
     click(editor, point)
     click(editor, point)
-    return editor.handle(DoubleClick(point, tuple(VIEW.to_pixels(point))))
+    return editor.handle(DoubleClick(point, tuple(VIEW.to_pixels(point)), PLAIN))
 
 
 def drag(editor, start, *ways, modifiers=frozenset()):
@@ -75,7 +78,7 @@ def drag(editor, start, *ways, modifiers=frozenset()):
 
 
 def keys(editor, *names, modifiers=frozenset()):
-    return [editor.handle(Key(name, modifiers)) for name in names]
+    return [editor.handle(Key(name, PLAIN, modifiers)) for name in names]
 
 
 def draw(editor, points):
@@ -220,7 +223,7 @@ def test_a_click_that_trembles_moves_nothing(drawn):
     before = drawn.drawing
     drag(drawn, FAULT[1], (451.0, 301.0), (450.0, 298.5))
     assert drawn.drawing == before
-    assert not drawn.can_undo
+    assert not drawn.history.undo_count
     assert drawn.state.selection.vertex == 1
 
 
@@ -235,7 +238,7 @@ def test_a_drag_ends_where_the_button_goes_up(drawn):
     move(drawn, end)
     assert release(drawn, end, cancelled=True)
     assert pieces(drawn)[0][1] == start
-    assert not drawn.can_undo
+    assert not drawn.history.undo_count
 
 
 def test_a_press_that_turns_out_to_be_a_pinch_has_done_nothing(drawn):
@@ -259,7 +262,7 @@ def test_escape_gives_up_a_drag(drawn):
     keys(drawn, "Escape")
     assert drawn.drawing == before
     assert not move(drawn, (510.0, 310.0))
-    assert not drawn.can_undo
+    assert not drawn.history.undo_count
 
 
 def test_a_click_on_a_line_inserts_a_vertex(drawn):
@@ -374,12 +377,12 @@ def slipped():
 
 def press_in(projection, editor, point):
     """Press in a pane at a point of its section."""
-    return editor.handle(Press(projection.to_original(point), tuple(projection.view.to_pixels(point))), projection)
+    return editor.handle(Press(projection.to_original(point), tuple(projection.view.to_pixels(point)), projection))
 
 
 def test_vertices_are_taken_where_the_restored_pane_shows_them(slipped):
     case, _, projection = slipped
-    editor = pen_of(Viewport(case.section), case.interpretation)
+    editor = editor_of(Viewport(case.section), case.interpretation)
     editor.enter("horizon")
     vertex = case.interpretation.horizons[0].pieces[0][0]
     (shown,) = projection.to_pane([vertex])
@@ -389,7 +392,7 @@ def test_vertices_are_taken_where_the_restored_pane_shows_them(slipped):
 
 def test_a_line_across_a_restored_fault_is_drawn_in_pieces_that_end_there(slipped):
     case, restored, projection = slipped
-    editor = PickEditor(Viewport(case.section))
+    editor = editor_of(Viewport(case.section))
     editor.enter("horizon")
     x_min, x_max, z_min, z_max = case.section.extent
     ends = [(x_min + share * (x_max - x_min), z_min + 0.6 * (z_max - z_min)) for share in (0.15, 0.85)]
@@ -411,7 +414,7 @@ def test_a_line_across_a_restored_fault_is_drawn_in_pieces_that_end_there(slippe
 
 def test_nothing_is_drawn_where_the_restored_pane_shows_no_rock(slipped):
     case, _, projection = slipped
-    editor = PickEditor(Viewport(case.section))
+    editor = editor_of(Viewport(case.section))
     editor.enter("fault")
     x_min, x_max, z_min, _ = case.section.extent
     assert not press_in(projection, editor, (x_max + 10 * (x_max - x_min), z_min))
@@ -446,7 +449,7 @@ def test_delete_takes_back_what_the_keyboard_put(editor):
 
 
 def test_the_cursor_steps_by_pixels_or_by_one_sample(editor):
-    editor.view = Viewport(SECTION, 91, 61)  # a sample a pixel
+    editor.viewport = Viewport(SECTION, 91, 61)  # a sample a pixel
     keys(editor, "f", "Enter")
     x, z = editor.state.cursor
     keys(editor, "ArrowRight")
@@ -476,21 +479,21 @@ def test_the_table_names_every_key():
 def test_hold_a_block(editor):
     editor.enter("block")
     click(editor, (200.0, 300.0))
-    assert editor.drawing.fixed == (200.0, 300.0)
+    assert editor.state.fixed == (200.0, 300.0)
     click(editor, (600.0, 300.0))
-    assert editor.drawing.fixed == (600.0, 300.0)
+    assert editor.state.fixed == (600.0, 300.0)
     click(editor, (603.0, 302.0))
-    assert editor.drawing.fixed is None
+    assert editor.state.fixed is None
     editor.undo()
-    assert editor.drawing.fixed == (600.0, 300.0)
+    assert editor.state.fixed == (600.0, 300.0)
     double_click(editor, (200.0, 300.0))
-    assert editor.drawing.fixed == (200.0, 300.0)
+    assert editor.state.fixed == (200.0, 300.0)
     keys(editor, "Delete")
-    assert editor.drawing.fixed is None
+    assert editor.state.fixed is None
     keys(editor, "Enter", "Enter")
-    assert editor.drawing.fixed is not None
+    assert editor.state.fixed is not None
     keys(editor, "Enter")
-    assert editor.drawing.fixed is None
+    assert editor.state.fixed is None
 
 
 # Undo and Escape
@@ -504,11 +507,11 @@ def test_undo_and_redo_by_keys(editor):
         assert keys(editor, "z", modifiers=CTRL) == [True]
     assert editor.drawing.picks == ()
     assert editor.drawing.draft is None
-    assert not editor.can_undo
+    assert not editor.history.undo_count
     keys(editor, "Z", modifiers=CTRL | SHIFT)
     keys(editor, "y", "y", "y", modifiers=CTRL)
     assert editor.drawing == done
-    assert not editor.can_redo
+    assert not editor.history.redo_count
 
 
 def test_an_edit_after_undo_forgets_what_was_undone(editor):
@@ -547,7 +550,7 @@ def test_undo_goes_back_without_limit(editor):
         click(editor, (float(number % 40) * 20, float(number // 40) * 7), SHIFT)
     while editor.undo():
         pass
-    assert editor.drawing == PickEditor(VIEW).drawing
+    assert editor.drawing == Drawing()
 
 
 # The list of picks
@@ -629,7 +632,7 @@ CASES = [sw.synthetic.graben(), sw.synthetic.faulted_fold(), sw.synthetic.domino
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.section.name)
 def test_interpretation_there_and_back(case):
-    given_in, editor = case.interpretation, pen_of(Viewport(case.section), case.interpretation)
+    given_in, editor = case.interpretation, editor_of(Viewport(case.section), case.interpretation)
     back = editor.interpretation
     assert [fault.name for fault in back.faults] == [fault.name for fault in given_in.faults]
     assert [horizon.name for horizon in back.horizons] == [horizon.name for horizon in given_in.horizons]
@@ -641,7 +644,7 @@ def test_interpretation_there_and_back(case):
     assert editor.problems == []
     before = editor.drawing
     editor.load(editor.interpretation)
-    assert not editor.can_undo
+    assert not editor.history.undo_count
     editor.load(given_in)
     assert editor.drawing == before
 
@@ -672,7 +675,7 @@ def test_cutoffs_are_numbered_by_fault_and_horizon(drawn):
 
 @pytest.mark.parametrize("case", CASES[:2], ids=lambda case: case.section.name)
 def test_cutoffs_of_a_synthetic_section(case):
-    marks = pen_of(Viewport(case.section), case.interpretation).cutoffs()
+    marks = editor_of(Viewport(case.section), case.interpretation).cutoffs()
     for fault in case.interpretation.faults:
         for horizon in case.interpretation.horizons:
             found = {m.wall: m.point for m in marks if (m.fault, m.horizon) == (fault.name, horizon.name)}
@@ -740,7 +743,7 @@ def test_shift_takes_a_cutoff_off_its_fault(drawn):
 def test_horizons_snap_and_faults_do_not():
     case = sw.synthetic.sine_fold(noise=0)
     view = Viewport(case.section)
-    editor = PickEditor(
+    editor = editor_of(
         view,
         snap=lambda point: snapped(case.section, point, "peak", 6),
         follow=lambda start, end: followed(case.section, start, end, "peak", 40),
@@ -748,7 +751,7 @@ def test_horizons_snap_and_faults_do_not():
     (bed,) = case.interpretation.horizons[1].pieces
     editor.enter("horizon")
     for point in (bed[3] + (0, 12), bed[30] - (0, 9)):
-        editor.handle(Press(tuple(point), tuple(view.to_pixels(point))))
+        editor.handle(Press(tuple(point), tuple(view.to_pixels(point)), PaneProjection(view)))
     line = np.array(editor.drawing.draft.points)
     assert len(line) > 3
     assert abs(np.interp(line[:, 0], *bed.T) - line[:, 1]).max() < case.section.dz
@@ -756,7 +759,7 @@ def test_horizons_snap_and_faults_do_not():
     assert len(editor.drawing.draft.points) == 1
     editor.enter("fault")
     point = tuple(bed[3] + (0, 12))
-    editor.handle(Press(point, tuple(view.to_pixels(point))))
+    editor.handle(Press(point, tuple(view.to_pixels(point)), PaneProjection(view)))
     assert editor.drawing.draft.points == (point,)
 
 
@@ -803,7 +806,7 @@ def perform(editor, action):
         return
     kind, what, modifiers = action
     if kind is Key:
-        consumed = editor.handle(Key(what, modifiers))
+        consumed = editor.handle(Key(what, PLAIN, modifiers))
         assert what != "Tab" or not consumed
         return
     place, aside = what
@@ -815,23 +818,27 @@ def perform(editor, action):
     if kind is click:
         click(editor, point, modifiers)
     else:
-        editor.handle(kind(point, tuple(VIEW.to_pixels(point).tolist()), modifiers=modifiers))
+        editor.handle(kind(point, tuple(VIEW.to_pixels(point).tolist()), PLAIN, modifiers=modifiers))
 
 
 def check_edit(editor, before, depth, dragging):
     """What a gesture did can be undone and made again; it is one edit, or two where it ended a drag as well."""
-    edits = len(editor._past) - depth
+    edits = editor.history.undo_count - depth
     assert edits <= 1 + dragging
     if edits > 0 and not editor.state.drag:
-        after, future = editor.state, len(editor._future)
+        after, future = editor.state, editor.history.redo_count
         assert all(editor.undo() for _ in range(edits))
         assert editor.drawing == before
         assert all(editor.redo() for _ in range(edits))
-        assert (editor.drawing, editor.state.selection, len(editor._future)) == (after.drawing, after.selection, future)
+        assert (editor.drawing, editor.state.selection, editor.history.redo_count) == (
+            after.drawing,
+            after.selection,
+            future,
+        )
 
 
 def check_state(editor):
-    state, section = editor.state, editor.view.section
+    state, section = editor.state, editor.viewport.section
     assert state.mode in MODES
     assert state.drawing.draft is None or state.mode == state.drawing.draft.kind
     for pick in state.drawing.picks:
@@ -852,21 +859,21 @@ def check_state(editor):
     assert target is None or target.vertex is None or target.vertex < len(state.drawing.line(target))
 
 
-def random_gestures(actions, drawing=None, **options):
-    editor = PickEditor(VIEW, drawing, **options)
+def random_gestures(actions, interpretation=None, **options):
+    editor = editor_of(VIEW, interpretation, **options)
     start = editor.drawing
     for action in actions:
-        drag, depth, undone = editor.state.drag, len(editor._past), len(editor._future)
+        drag, depth, undone = editor.state.drag, editor.history.undo_count, editor.history.redo_count
         before = drag.before if drag else editor.drawing
         perform(editor, action)
-        if len(editor._future) <= undone:
+        if editor.history.redo_count <= undone:
             check_edit(editor, before, depth, drag is not None)
         check_state(editor)
     for _ in range(5):
-        editor.handle(Key("Escape"))
+        editor.handle(Key("Escape", PLAIN))
     assert (editor.state.mode, editor.state.selection, editor.state.drag) == ("look", None, None)
     assert editor.drawing.draft is None
-    end, edits = editor.drawing, len(editor._past)
+    end, edits = editor.drawing, editor.history.undo_count
     while editor.undo():
         pass
     assert editor.drawing == start
@@ -882,7 +889,6 @@ SOON = settings(
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
-DRAWN = pen_of(VIEW, PICKS).drawing
 
 
 @SOON
@@ -895,4 +901,4 @@ def test_random_gestures_from_nothing(actions):
 @given(st.lists(ACTIONS, min_size=40, max_size=60), st.sampled_from(["f", "h", "l"]))
 def test_random_gestures_on_a_drawing(actions, mode):
     snap = lambda point: snapped(SECTION, point, "peak", 3)  # noqa: E731
-    random_gestures([(Key, mode, frozenset()), *actions], DRAWN, snap=snap)
+    random_gestures([(Key, mode, frozenset()), *actions], PICKS, snap=snap)

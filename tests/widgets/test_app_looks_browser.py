@@ -66,6 +66,7 @@ def test_every_state_in_every_look(open_app):
     far = "sw.Interpretation([*drawn.faults, sw.Fault([(100.0, 100.0), (150.0, 500.0)], 'far')], drawn.horizons)"
     screen.ask(f"app.set_trait('interpretation', {far})")
     screen.button("Restore").click()
-    screen.page.get_by_role("alert").get_by_text("'far'").nth(1).wait_for()
+    for role in ("alert", "note"):  # above the panes, and beside the pick
+        screen.page.get_by_role(role).get_by_text("'far'").wait_for()
     look(screen, "error")
     assert screen.page.eval_on_selector_all("canvas.seiswidgets-plot", OPACITIES) == ["1", "0.5"]

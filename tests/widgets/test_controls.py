@@ -2,11 +2,13 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.widgets.panels.controls import SolverControls
+from seiswidgets.widgets.workspace import Workspace
 
 
 def test_only_a_hand_moves_the_mesh_spacing():
-    controls = SolverControls(sw.synthetic.faulted_fold().section)
+    controls = SolverControls(Workspace(sw.synthetic.faulted_fold().section))
     slider, middle = controls._slider, controls._slider.value
     slider.value = middle * 10 ** (0.5 * slider.step)  # as a page rounds what it is given
     assert controls.spacing is None
@@ -19,9 +21,10 @@ def test_only_a_hand_moves_the_mesh_spacing():
 
 def test_the_mesh_spacing_suits_sections_of_any_size():
     small, large = (sw.Section(np.zeros((50, 50)), spacing, spacing) for spacing in (0.1, 1000.0))
-    controls = SolverControls(small)
+    workspace = Workspace(small)
+    controls = SolverControls(workspace)
     for section in (large, small):
-        controls.take(section)
+        workspace.open(section, Drawing())
         slider, usual = controls._slider, sw.Restoration(section).domain.spacing
         np.testing.assert_allclose([10**slider.min, slider.value, 10**slider.max], [usual / 4, usual, 4 * usual])
         assert controls.spacing is None

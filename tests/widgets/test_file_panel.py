@@ -275,7 +275,7 @@ def test_what_should_not_happen_is_said_too(app, tmp_path, monkeypatch, caplog):
     monkeypatch.setattr(section_opener, "open_section", lambda *_, **__: 1 / 0)
     opener = load(app, line(tmp_path / "line.sgy"))
     assert "should not have happened: ZeroDivisionError" in opener.notice.text
-    assert "in the background failed" in caplog.text
+    assert "a background job failed" in caplog.text
 
 
 def test_picks_are_kept_or_dropped_as_the_user_says(restored, case, tmp_path):
@@ -289,13 +289,17 @@ def test_picks_are_kept_or_dropped_as_the_user_says(restored, case, tmp_path):
     answer(opener.notice, "Keep the picks")
     assert app.section is not case.section
     assert app.picker.drawing == drawn
-    assert not app.picker.editor.can_undo
+    assert app.workspace.history.next_undo.label == "open faulted fold"
     load(app, line(tmp_path / "line.sgy"))
     assert set(opener.notice.answers) == {"Drop the picks", "Do not open"}
     answer(opener.notice, "Drop the picks")
     assert app.picker.drawing.picks == ()
-    assert not app.picker.editor.can_undo
     assert app.restoration.stages == ()
+    assert app.picker.editor.undo()
+    assert app.wait(LONG)
+    assert app.section.shape == case.section.shape
+    assert app.picker.drawing == drawn
+    assert app.restoration.original is app.section
 
 
 def test_a_section_set_from_code_keeps_the_picks_that_lie_on_it(restored, case):

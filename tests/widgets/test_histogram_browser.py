@@ -147,7 +147,7 @@ def test_two_views_agree_also_after_a_reload(notebook):
     chart(opened, 1)
     opened.page.mouse.click(*bar(opened, 30))
     opened.until(f"histogram.brush == [{EDGES}[30], {EDGES}[31]]")
-    markup = "([...document.querySelectorAll('.seiswidgets-histogram')].map((one) => one.outerHTML))"
+    markup = "([...document.querySelectorAll('.seiswidgets-histogram')].map((one) => one.innerHTML))"
     same = f"(([one, other]) => one.replace(' by-pointer', '') === other)({markup})"
     opened.page.wait_for_function(same)
     expect(opened.page.locator(f"{CHART} .bar:not(.faded)")).to_have_count(2)

@@ -171,7 +171,7 @@ def test_gestures_that_are_consumed_do_not_pan(section, sent):
     assert pane.view.is_fitted
     assert isinstance(seen[0], Press)
     assert isinstance(seen[3], DoubleClick)
-    assert seen[4] == Key("0")
+    assert (type(seen[4]), seen[4].name) == (Key, "0")
     assert seen[0].modifiers == {"ctrl"}
     np.testing.assert_allclose(seen[0].point, pane.view.to_section((300, 100)))
 
@@ -410,7 +410,7 @@ def test_other_keys_are_told_and_do_nothing_themselves(section, sent):
     for name in ("Enter", " ", "Escape"):
         tell(pane, "key", key=name)
     assert pane.view.is_fitted
-    assert seen == [Key("Enter"), Key(" "), Key("Escape")]
+    assert [gesture.name for gesture in seen] == ["Enter", " ", "Escape"]
     tell(pane, "hover", x=1, y=1)
     assert isinstance(seen[-1], Move)
 

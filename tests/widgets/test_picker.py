@@ -75,7 +75,7 @@ def test_traits_and_screen_follow_each_other(picker):
     picker.mode = "block"
     click(picker.pane, (200.0, 200.0))
     assert picker.fixed == pytest.approx((200.0, 200.0))
-    with pytest.raises(sw.SettingError, match="fixed must be a point"):
+    with pytest.raises(sw.PickError, match="fixed must be a point"):
         picker.fixed = (1.0, 2.0, 3.0)
 
 
@@ -120,8 +120,8 @@ def test_what_is_wrong_with_a_pick_is_said_beside_it(drawn):
     drawn.refresh()
     assert name.value == "F1"
     assert message.layout.display == "none"
-    drawn.complain(f"horizon 'H1' is odd, and {NASTY} too, as is fault 'F1'")
-    assert rows(drawn, "fault")[0][-1].layout.display == "none"  # the first that is named is the one it is about
+    drawn.complain(sw.PickError(f"this one is odd, and {NASTY}", pick="H1"))
+    assert rows(drawn, "fault")[0][-1].layout.display == "none"
     *_, message = rows(drawn, "horizon")[0]
     assert "&lt;img" in message.value
     assert NASTY not in message.value

@@ -113,8 +113,8 @@ def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
     app.close()
     session = find_versions(path)[0].session
     assert [(pick.colour, pick.visible) for pick in session.faults] == [("#123456", False)]
-    assert session.plan == app.plan == sw.Plan((sw.Step("unfault"),), sw.Weights(stitch=33.0), spacing=77.0)
-    assert session.fixed == (100.0, 100.0)
+    plan = sw.Plan((sw.Step("unfault"),), sw.Weights(stitch=33.0), spacing=77.0, fixed=(100.0, 100.0))
+    assert session.plan == app.plan == plan
     assert session.source == SOURCE
 
 
@@ -317,7 +317,7 @@ def test_another_section_sets_the_work_on_the_first_aside(new_app, path, full_di
     app.section = other
     aside = path.with_name("work.before-000001.json")
     assert str(aside) in app.keeper.notice.text
-    app.begin(other, app.picker.drawing)
+    app.workspace.open(other, app.picker.drawing)
     draw_fault(app, [(500.0, 200.0), (800.0, 700.0)])
     app.close()
     assert sw.open_session(aside).faults[0].pieces == (tuple(FAULT),)

@@ -3,7 +3,7 @@
 import os
 import re
 from collections.abc import Callable
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from reprlib import repr as brief
 from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
@@ -12,7 +12,7 @@ from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError, Text
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.weights import Weights
-from seiswidgets.io.document import Entry, Point, Points, json_text, read_json, shortened
+from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
 from seiswidgets.io.session.saved_picks import SavedPick
 from seiswidgets.io.session.sources import FILE, SectionSource, relative_path, section_path
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from seiswidgets.io.session.session import Session
 
 FORMAT, VERSION = "seiswidgets session", 1
+NOT_IN_PLAN = ("fixed", "pins", "regional")  # the held point is saved with the picks; the others are not supported yet
 DEEPEST = 4  # lists within lists in the choices of a source
 
 Arguments = ParamSpec("Arguments")
@@ -33,7 +34,6 @@ class SessionFields(TypedDict):
     sha256: str | None
     faults: tuple[SavedPick, ...]
     horizons: tuple[SavedPick, ...]
-    fixed: Point | None
     plan: Plan
     written_by: str
 
@@ -58,26 +58,29 @@ MIGRATIONS = {0: _from_version_0}  # from each old version to the next
 
 def session_as_json(session: "Session", path: Path) -> str:
     """The content of a session's file at a path."""
+    return json_text(session_document(session, path))
+
+
+def session_document(session: "Session", path: Path) -> dict[str, Any]:
+    """A session as plain values, with paths relative to the folder of a session's file at ``path``."""
     source = session.source
     origin: dict[str, Any] = (
         {"path": relative_path(_folder(path), source.name), "choices": dict(source.choices)}
         if source.kind == FILE
         else {"name": source.name, "arguments": dict(source.choices)}
     )
-    return json_text(
-        {
-            "format": FORMAT,
-            "version": VERSION,
-            "written_by": f"seiswidgets {__version__}",
-            "section": {"source": {"kind": source.kind, **origin}, "sha256": session.sha256},
-            "picks": {
-                "faults": [{"name": pick.name, "points": pick.pieces[0], **_style(pick)} for pick in session.faults],
-                "horizons": [{"name": pick.name, "pieces": pick.pieces, **_style(pick)} for pick in session.horizons],
-                "fixed": session.fixed,
-            },
-            "plan": asdict(session.plan),
-        }
-    )
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "written_by": f"seiswidgets {__version__}",
+        "section": {"source": {"kind": source.kind, **origin}, "sha256": session.sha256},
+        "picks": {
+            "faults": [{"name": pick.name, "points": pick.pieces[0], **_style(pick)} for pick in session.faults],
+            "horizons": [{"name": pick.name, "pieces": pick.pieces, **_style(pick)} for pick in session.horizons],
+            "fixed": session.fixed,
+        },
+        "plan": {name: value for name, value in asdict(session.plan).items() if name not in NOT_IN_PLAN},
+    }
 
 
 def _folder(path: Path) -> Path:
@@ -97,15 +100,19 @@ def read_session_fields(path: Path, allow_outside: bool) -> SessionFields:
     DataError
         If it is not a session, is damaged, comes from a newer version, or its section lies outside its folder.
     """
-    document = _migrated(read_json(path))
+    return session_fields(read_json(path), allow_outside)
+
+
+def session_fields(entry: Entry, allow_outside: bool) -> SessionFields:
+    """The fields of the session in a parsed document; errors as for `read_session_fields`."""
+    document = _migrated(entry)
     section, picks = document["section"], document["picks"]
     return {
         "source": _source(section["source"], allow_outside),
         "sha256": section.optional("sha256", _sha256, None),
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
-        "fixed": picks.optional("fixed", Entry.point, None),
-        "plan": document.optional("plan", _plan, Plan()),
+        "plan": replace(document.optional("plan", _plan, Plan()), fixed=picks.optional("fixed", Entry.point, None)),
         "written_by": document.optional("written_by", Entry.text, ""),
     }
 

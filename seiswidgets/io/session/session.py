@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -32,9 +32,8 @@ class Session:
     sha256 : str or None
         Hash of the section, by `section_sha256`; None if unknown.
     faults, horizons : tuple of SavedPick
-    fixed : (x, z), optional
-        The point whose block is held.
     plan : Plan
+        Includes the held point.
     written_by : str
         The version of seiswidgets that wrote it.
 
@@ -59,7 +58,6 @@ class Session:
     sha256: str | None
     faults: tuple[SavedPick, ...] = ()
     horizons: tuple[SavedPick, ...] = ()
-    fixed: Point | None = None
     plan: Plan = field(default_factory=Plan)
     written_by: str = field(default=f"seiswidgets {__version__}", compare=False)
 
@@ -110,14 +108,13 @@ class Session:
         """
         checked_kind(section, Section, "section")
         checked_kind(interpretation, Interpretation, "interpretation")
-        looks = looks or {}
+        looks, plan = looks or {}, plan or Plan()
         return cls(
             source,
             section_sha256(section),
             tuple(saved_pick(fault, looks.get((FAULT, fault.name))) for fault in interpretation.faults),
             tuple(saved_pick(horizon, looks.get((HORIZON, horizon.name))) for horizon in interpretation.horizons),
-            None if fixed is None else _as_point(fixed),
-            Plan() if plan is None else plan,
+            plan if fixed is None else replace(plan, fixed=fixed),
         )
 
     def save(self, path: str | os.PathLike) -> None:
@@ -135,6 +132,11 @@ class Session:
             raise DataError(f"{path} cannot hold this session: {error}; correct its numbers") from error
         check_file_size(path, content)
         write_file(path, content)
+
+    @property
+    def fixed(self) -> Point | None:
+        """The point whose block is held."""
+        return self.plan.fixed
 
     @property
     def interpretation(self) -> Interpretation:
@@ -193,15 +195,7 @@ class Session:
             As for `Plan.restore`.
         """
         section = self.open_section(allow_changed=allow_changed)
-        return self.plan.restore(section, self.interpretation, self.fixed, progress)
-
-
-def _as_point(fixed: Point) -> Point:
-    try:
-        x, z = (float(value) for value in fixed)
-    except (TypeError, ValueError):
-        raise PickError(f"fixed must be a point (x, z), but is {fixed!r}") from None
-    return x, z
+        return self.plan.restore(section, self.interpretation, progress=progress)
 
 
 @strict_keywords

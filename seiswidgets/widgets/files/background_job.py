@@ -1,30 +1,28 @@
-"""Work of the tab File in the background: how far it is, and a button to give it up."""
+"""A job of the tab File in the background, with its progress and a button that cancels it."""
 
 from collections.abc import Callable
 from functools import partial
-from threading import Event
 
 from ipywidgets import Button, FloatProgress, HBox, Layout
 from traitlets import Bool
 
-from seiswidgets.errors import Cancelled
 from seiswidgets.widgets.files.question import Question
-from seiswidgets.widgets.jobs import Worker
+from seiswidgets.widgets.jobs import Job, JobRunner
 from seiswidgets.widgets.messages import in_words
 
-Tell = Callable[[float], bool]
-Job = Callable[[Tell], Callable[[], None]]
+Report = Callable[[float], bool]
+Work = Callable[[Report], Callable[[], None]]
 
 
 class BackgroundJob(HBox):
-    """Does one job at a time on a thread, and shows itself as long as one is under way.
+    """Runs one job at a time, and shows itself as long as one is in progress.
 
     Parameters
     ----------
     notice : Question
-        That says what went wrong.
-    given_up : callable() returning str
-        What it says when a job was given up.
+        Shows what went wrong.
+    cancelled : callable() returning str
+        The message after a job was cancelled.
 
     Attributes
     ----------
@@ -33,57 +31,46 @@ class BackgroundJob(HBox):
 
     busy = Bool(False)
 
-    def __init__(self, notice: Question, given_up: Callable[[], str]):
-        self._notice, self._given_up = notice, given_up
-        self._worker, self._stop = Worker(), Event()
+    def __init__(self, notice: Question, cancelled: Callable[[], str]):
+        self._notice, self._cancelled, self._runner = notice, cancelled, JobRunner()
         self._bar = FloatProgress(min=0, max=1, layout=Layout(width="120px"))
         self._cancel = Button(description="Cancel", icon="stop", layout=Layout(width="auto"))
         super().__init__([self._bar, self._cancel], layout=Layout(display="none"))
         self._cancel.on_click(lambda _: self.cancel())
         self.observe(lambda change: setattr(self.layout, "display", "" if change.new else "none"), "busy")
 
-    def begin(self, job: Job) -> None:
-        """Do a job, in place of the one under way.
+    def begin(self, work: Work) -> None:
+        """Run a job, instead of the one in progress.
 
-        It is given a function to tell the share done by, which returns whether the job is still wanted. What the job
-        returns is called at the end, if it is.
+        It is given a function that reports the share done and returns whether to go on; what the job returns is called
+        at its end.
         """
-        self._stop = Event()
         self._bar.value, self._cancel.disabled, self.busy = 0, False, True
-        self._worker.ask(partial(self._work, job, self._stop))
+        end = partial(self._end, lambda finish: finish())
+        fail = partial(self._end, lambda error: self._notice.alert(in_words(error)))
+        stop = partial(self._end, lambda: self._notice.hint(self._cancelled()))
+        self._runner.submit(Job(lambda job: work(partial(self._report, job)), end, fail, stop))
 
     def cancel(self) -> None:
-        """Give up the job that is under way, as soon as it asks whether it is wanted."""
+        """Stop the job in progress as soon as it reports."""
         self._cancel.disabled = True
         self._notice.hint("Stopping ...")
-        self._stop.set()
+        self._runner.stop()
 
     def drop(self) -> None:
-        """Want nothing any more, and say nothing."""
-        self._worker.cancel()
+        """Cancel the running and pending jobs, and say nothing."""
+        self._runner.drop()
         self.busy = False
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is left to do; False if that took too long."""
-        return self._worker.wait(timeout)
+        """Wait until nothing is left to do; False after the timeout in seconds."""
+        return self._runner.wait(timeout)
 
-    def _work(self, job, stop, wanted):
-        try:
-            end = job(partial(self._tell, stop, wanted))
-            if stop.is_set():
-                raise Cancelled("a job that does not ask ends when it is done")
-            self._end(wanted, end)
-        except Cancelled:
-            self._end(wanted, lambda: self._notice.hint(self._given_up()))
-        except Exception as error:  # noqa: BLE001 - nobody else would hear of it on this thread
-            self._end(wanted, partial(self._notice.alert, in_words(error)))
-
-    def _tell(self, stop, wanted, share):
-        if wanted():
+    def _report(self, job, share):
+        if job.wanted:
             self._bar.value = share
-        return wanted() and not stop.is_set()
+        return job.wanted
 
-    def _end(self, wanted, action):
-        if wanted():
-            self.busy = False
-            action()
+    def _end(self, action, *result):
+        self.busy = False
+        action(*result)

@@ -9,7 +9,9 @@ from seiswidgets.widgets.files.picks_files import PicksFiles
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.result_files import ResultFiles
 from seiswidgets.widgets.files.section_opener import SectionOpener
+from seiswidgets.widgets.files.session_bar import SessionBar
 from seiswidgets.widgets.messages import HINT
+from seiswidgets.widgets.workspace import Workspace
 
 HEADING = "<b>{}</b>"
 KEPT = "Every edit is saved in {} from now on."
@@ -23,7 +25,8 @@ class FilePanel(VBox):
 
     Parameters
     ----------
-    app : RestorationApp
+    workspace : Workspace
+    keeper : SessionBar
 
     Attributes
     ----------
@@ -31,9 +34,9 @@ class FilePanel(VBox):
         The parts.
     """
 
-    def __init__(self, app):
-        self.section, self.picks, self.results = SectionOpener(app), PicksFiles(app), ResultFiles(app)
-        self.session = SessionFile(app)
+    def __init__(self, workspace: Workspace, keeper: SessionBar):
+        self.section, self.picks = SectionOpener(workspace), PicksFiles(workspace)
+        self.results, self.session = ResultFiles(workspace), SessionFile(keeper)
         where = HTML(HINT.format(WHERE.format(escape(str(Path.cwd())))))
         parts = {"Section": self.section, "Picks": self.picks, "Results": self.results, "Session": self.session}
         children = [child for title, part in parts.items() for child in (HTML(HEADING.format(title)), part)]
@@ -54,7 +57,7 @@ class SessionFile(VBox):
 
     Parameters
     ----------
-    app : RestorationApp
+    keeper : SessionBar
 
     Attributes
     ----------
@@ -63,15 +66,15 @@ class SessionFile(VBox):
         What is wrong.
     """
 
-    def __init__(self, app):
-        self._app, self.notice = app, Question()
+    def __init__(self, keeper: SessionBar):
+        self._keeper, self.notice = keeper, Question()
         layout = Layout(flex="1", width="auto")
         self.path = Text(placeholder="folder/name.json; without, nothing is saved by itself", layout=layout)
         keep = Button(description="Keep work here", icon="save", layout=Layout(width="auto"))
         super().__init__([HBox([self.path, keep]), self.notice])
         keep.on_click(lambda _: self.notice.attempt(self.keep))
-        app.keeper.observe(lambda change: self._take_path(), "path")
-        app.keeper.notice.observe(lambda change: self.notice.hint(""), "text")  # as when its question was answered
+        keeper.workspace.observe(lambda change: self._take_path(), "session_path")
+        keeper.notice.observe(lambda change: self.notice.hint(""), "text")  # as when its question was answered
         self._take_path()
 
     def keep(self) -> None:
@@ -82,11 +85,11 @@ class SessionFile(VBox):
         DataError, SettingError
             If that cannot be.
         """
-        self._app.session_path = self.path.value.strip() or None
-        asked = self._app.keeper.notice.answers
-        kept = ASKED if asked else KEPT if self._app.session_path else UNKEPT
-        self.notice.hint(kept.format(self._app.session_path))
+        self._keeper.keep(self.path.value.strip() or None)
+        path = self._keeper.workspace.session_path
+        kept = ASKED if self._keeper.notice.answers else KEPT if path else UNKEPT
+        self.notice.hint(kept.format(path))
 
     def _take_path(self):
-        if self._app.keeper.path is not None:
-            self.path.value = str(self._app.keeper.path)
+        if self._keeper.workspace.session_path is not None:
+            self.path.value = str(self._keeper.workspace.session_path)

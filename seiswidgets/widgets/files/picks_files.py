@@ -17,7 +17,8 @@ from seiswidgets.widgets.files.file_field import FileField
 from seiswidgets.widgets.files.labels import LABELS, counted
 from seiswidgets.widgets.files.line_map import points_of, segy_line
 from seiswidgets.widgets.files.question import Question
-from seiswidgets.widgets.section_view.canvas import LOCK
+from seiswidgets.widgets.jobs import UI_LOCK
+from seiswidgets.widgets.workspace import Workspace
 
 OURS = "by the suffix: GeoJSON or CSV"
 UNCHOSEN = ""  # ipywidgets takes a None, chosen from a list, for nothing, and shows an empty field
@@ -35,7 +36,7 @@ PLACES = {
     "the way along a line through these points": POINTS,
 }
 REPLACE, LEAVE = "Replace it", "Leave it"
-STYLE, WIDE = {"description_width": "130px"}, Layout(width="auto")
+STYLE, WIDE = {"description_width": "130px"}, {"width": "auto"}  # Layouts would be shared by all apps
 
 
 class PicksFiles(VBox):
@@ -43,7 +44,7 @@ class PicksFiles(VBox):
 
     Parameters
     ----------
-    app : RestorationApp
+    workspace : Workspace
 
     Attributes
     ----------
@@ -55,8 +56,8 @@ class PicksFiles(VBox):
         What was done, or is wrong.
     """
 
-    def __init__(self, app):
-        self._app = app
+    def __init__(self, workspace: Workspace):
+        self._workspace = workspace
         self.file, self.notice = FileField("picks: path of a .geojson, .csv or exported file"), Question()
         self.job = BackgroundJob(self.notice, lambda: "The import was cancelled; the picks are as they were.")
         self.format = _chooser("format", {OURS: UNCHOSEN, **{name: name for name in EXPORTS}})
@@ -98,7 +99,9 @@ class PicksFiles(VBox):
             along, line = self._along(), self.line.value.strip() or None
             choices |= {"z_up": self.z_up.value, "along": along, "line": line}
         self.notice.hint("Reading ...")
-        self.job.begin(partial(self._picks_of, self.file.path, self._app.section, self._app.source, choices))
+        self.job.begin(
+            partial(self._picks_of, self.file.path, self._workspace.section, self._workspace.source, choices)
+        )
 
     def write(self, replace: bool = False) -> None:
         """Write the picks, and say where; ask before another file is replaced.
@@ -113,9 +116,9 @@ class PicksFiles(VBox):
             again = partial(self.notice.attempt, partial(self.write, replace=True))
             self.notice.ask(f"{path} exists already.", {REPLACE: again, LEAVE: lambda: None})
             return
-        picks = self._app.interpretation
-        write_picks(picks, path, self._app.section)
-        left_out = len(self._app.picker.drawing.picks) - len(picks.faults) - len(picks.horizons)
+        picks = self._workspace.interpretation
+        write_picks(picks, path, self._workspace.section)
+        left_out = len(self._workspace.drawing.picks) - len(picks.faults) - len(picks.horizons)
         these = f" {left_out} picks that cannot be used were left out." if left_out else ""
         self.notice.hint(f"Wrote {counted(picks)} to {path.absolute()}.{these}")
 
@@ -144,10 +147,9 @@ class PicksFiles(VBox):
         return partial(self._take, picks, [str(warning.message) for warning in caught])
 
     def _take(self, picks, warned):
-        picker = self._app.picker
-        with LOCK:
-            take = _added if self.keep.value else Drawing.with_interpretation
-            picker.take(take(picker.drawing, picks))
+        take = _added if self.keep.value else Drawing.with_interpretation
+        with UI_LOCK:
+            self._workspace.edit("import picks", drawing=take(self._workspace.drawing, picks))
         came = f"Read {counted(picks)}; Undo brings back what was there."
         self.notice.hint(" ".join([came, *(f"{text}." for text in warned)]))
 

@@ -7,6 +7,7 @@ from ipywidgets import HTML, Button, HBox, Layout, VBox, Widget
 from traitlets import Unicode
 
 from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.widgets.closing import close_with_parts
 from seiswidgets.widgets.files.labels import in_labels
 from seiswidgets.widgets.messages import HINT, TROUBLE
 
@@ -60,5 +61,8 @@ class Question(VBox):
         return button
 
     def _show(self, look: str, text: str, controls: Sequence[Widget] = ()) -> None:
+        answered = self.answers.values()
         self.text, self._line.value, self._answers.children = text, look.format(escape(text)), controls
+        for button in answered:  # or ipywidgets would keep it
+            close_with_parts(button)
         self.layout.display = "" if text else "none"

@@ -22,6 +22,7 @@ from seiswidgets.widgets.files.background_job import BackgroundJob
 from seiswidgets.widgets.files.file_names import file_name
 from seiswidgets.widgets.files.line_map import of_segy
 from seiswidgets.widgets.files.question import Question
+from seiswidgets.widgets.workspace import Workspace
 
 DPI = 300  # of a picture of dots: print quality
 REPLACE, LEAVE = "Replace them", "Leave them"
@@ -42,7 +43,7 @@ class ResultFiles(VBox):
 
     Parameters
     ----------
-    app : RestorationApp
+    workspace : Workspace
 
     Attributes
     ----------
@@ -58,11 +59,12 @@ class ResultFiles(VBox):
         What was written, or is wrong.
     """
 
-    def __init__(self, app):
-        self._app, self.written, self.notice = app, (), Question()
+    def __init__(self, workspace: Workspace):
+        self._workspace, self.written, self.notice = workspace, (), Question()
         self.job = BackgroundJob(self.notice, lambda: f"The export was cancelled. {self._done()}")
-        self.folder = Text("results", description="folder", placeholder="a folder, as results", style=STYLE)
-        self.stem = Text(description="name", placeholder="that of the section", style=STYLE)
+        look = {"style": STYLE, "layout": {"width": "auto", "flex": "1 1 160px"}}
+        self.folder = Text("results", description="folder", placeholder="a folder, as results", **look)
+        self.stem = Text(description="name", placeholder="that of the section", **look)
         self.kinds = {
             ending: Checkbox(ending in WRITERS_AT_FIRST, description=words, indent=False, layout=Layout(width="auto"))
             for ending, (words, _) in WRITERS.items()
@@ -71,8 +73,6 @@ class ResultFiles(VBox):
         self._export.on_click(lambda _: self.notice.attempt(self.export))
         self.job.observe(lambda change: setattr(self._export, "disabled", change.new), "busy")
         columns = Layout(grid_template_columns="repeat(auto-fit, minmax(180px, 1fr))")
-        for field in (self.folder, self.stem):
-            field.layout = Layout(width="auto", flex="1 1 160px")
         where = HBox([self.folder, self.stem], layout=Layout(flex_flow="row wrap"))
         kinds = GridBox(list(self.kinds.values()), layout=columns)
         super().__init__([where, kinds, HBox([self._export, self.job]), self.notice])
@@ -88,9 +88,11 @@ class ResultFiles(VBox):
             If the folder cannot be made.
         """
         chosen = [ending for ending, box in self.kinds.items() if box.value]
-        if not self._app.restoration.stages or not chosen:
+        if not self._workspace.restoration.stages or not chosen:
             raise SettingError(
-                "choose what to export" if self._app.restoration.stages else "there is no result yet: restore first"
+                "choose what to export"
+                if self._workspace.restoration.stages
+                else "there is no result yet: restore first"
             )
         stem, folder = self._stem(), _made(self.folder.value.strip())
         paths = {ending: folder / f"{stem}-{ending}" for ending in chosen}
@@ -100,7 +102,7 @@ class ResultFiles(VBox):
             self.notice.ask(f"There are already: {', '.join(there)}.", {REPLACE: again, LEAVE: lambda: None})
             return
         self.written = ()
-        result = Result(self._app.restoration, self._app.interpretation, self._app.source)
+        result = Result(self._workspace.restoration, self._workspace.interpretation, self._workspace.source)
         self.job.begin(partial(self._write, result, paths))
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -138,7 +140,7 @@ class ResultFiles(VBox):
         given = self.stem.value.strip()
         if given != Path(given).name or given in (".", ".."):
             raise SettingError(f"the name must be a name without folders, but is {given!r}; give those as the folder")
-        return given or file_name(self._app.section.name, "section")
+        return given or file_name(self._workspace.section.name, "section")
 
 
 def _made(folder):

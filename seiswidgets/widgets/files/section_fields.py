@@ -10,6 +10,7 @@ from seiswidgets.geology.findings import worst_first
 from seiswidgets.geology.section import METRES, SECONDS
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.segy.reading import PER_MS_OR_M
+from seiswidgets.widgets.closing import close_with_parts
 from seiswidgets.widgets.files.labels import LABELS, in_labels
 from seiswidgets.widgets.messages import HINT
 
@@ -57,7 +58,10 @@ class SectionFields(VBox):
         for name in set(KEPT) & set(before) & set(self.fields):
             self.fields[name].value = before[name].value
         self._take_units()
+        replaced = [field for field in self.children if field is not self._note]
         self.children = [*self.fields.values(), self._note]
+        for field in replaced:  # or ipywidgets would keep it
+            close_with_parts(field)
 
     def choices(self) -> dict:
         """The keywords of `open_section`.

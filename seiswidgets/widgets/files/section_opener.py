@@ -16,6 +16,7 @@ from seiswidgets.widgets.files.header_bytes import HeaderBytes
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.section_fields import SectionFields
 from seiswidgets.widgets.files.thumbnail import thumbnail
+from seiswidgets.widgets.workspace import Workspace
 
 KINDS = ".sgy,.segy,.seg,.png,.jpg,.jpeg,.tif,.tiff,.npy,.npz,.txt,.csv,.asc,.tsv"
 HEADER = (
@@ -30,7 +31,7 @@ class SectionOpener(VBox):
 
     Parameters
     ----------
-    app : RestorationApp
+    workspace : Workspace
 
     Attributes
     ----------
@@ -44,8 +45,8 @@ class SectionOpener(VBox):
         What is wrong, or asked.
     """
 
-    def __init__(self, app):
-        self._app, self._is_known = app, False
+    def __init__(self, workspace: Workspace):
+        self._workspace, self._is_known = workspace, False
         self.file = FileField("section: path of a SEG-Y, picture, NumPy or text file", KINDS)
         self.header_bytes, self.fields, self.notice = HeaderBytes(), SectionFields(), Question()
         self.job = BackgroundJob(self.notice, lambda: "Opening was cancelled; the section is as it was.")
@@ -122,20 +123,20 @@ class SectionOpener(VBox):
 
     def _take(self, section, source):
         """Show a section, once it is agreed what becomes of the picks."""
-        drawn = self._app.picker.drawing
+        drawn = self._workspace.drawing
         keep, drop = (partial(self._show, section, picks, source) for picks in (drawn, Drawing()))
         if not drawn.picks:
             drop()
             return
-        answers = {KEEP: keep} if self._app.picks_fit(section) else {}
+        answers = {KEEP: keep} if self._workspace.picks_fit(section) else {}
         fate = "lie on the new section too" if answers else "do not lie on the new section, and cannot be kept"
-        text = f"The {len(drawn.picks)} picks {fate}. Dropped ones cannot be brought back by undo: export them first."
+        text = f"The {len(drawn.picks)} picks {fate}. Undo brings the present section and its picks back."
         self.notice.ask(text, {**answers, DROP: drop, BACK: lambda: None})
 
     def _show(self, section, drawing, source):
         samples, traces = section.shape
         self.notice.hint(f"Opened: {section.name}, {traces:,} traces of {samples:,} samples.")
-        self.notice.attempt(partial(self._app.begin, section, drawing, source=source))
+        self.notice.attempt(partial(self._workspace.open, section, drawing, source=source))
 
 
 def _described(info: SectionInfo) -> str:

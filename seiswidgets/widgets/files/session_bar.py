@@ -1,21 +1,25 @@
 """The line of the app that keeps its work in a session's file, and offers what it finds there."""
 
 import contextlib
+from functools import partial
 from pathlib import Path
 from weakref import WeakValueDictionary
 
 from ipywidgets import Dropdown, Layout, VBox
-from traitlets import Instance
 
 from seiswidgets.errors import DataError, SettingError, Text
+from seiswidgets.interaction.document import Document
+from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing
 from seiswidgets.io.files import user_path
 from seiswidgets.io.session.autosave import Autosave, Version, find_versions, numbered_files, set_aside
+from seiswidgets.io.session.saved_picks import SavedPick
+from seiswidgets.io.session.session import Session, SessionWithSection, source_beside
 from seiswidgets.io.session.sources import FILE, section_path, section_sha256
 from seiswidgets.widgets.files.labels import counted
 from seiswidgets.widgets.files.question import Question
-from seiswidgets.widgets.files.sessions import drawing_of, session_of
-from seiswidgets.widgets.jobs import Worker
+from seiswidgets.widgets.jobs import Job, JobRunner
 from seiswidgets.widgets.messages import in_words
+from seiswidgets.widgets.workspace import Workspace
 
 OPEN, PICKS_ONLY, ANEW = "Open", "Picks only", "Start anew"
 SAFE = "What is drawn stays in memory meanwhile, and is saved as soon as that works."
@@ -29,12 +33,10 @@ class SessionBar(VBox):
 
     Parameters
     ----------
-    app : RestorationApp
+    workspace : Workspace
 
     Attributes
     ----------
-    path : Path or None
-        Where the session is kept; `keep` sets it.
     notice : Question
         What is said, and asked, when the app or its user begins something.
     news : Question
@@ -42,17 +44,19 @@ class SessionBar(VBox):
         what is below.
     """
 
-    path = Instance(Path, allow_none=True)
-
-    def __init__(self, app):
-        self._app, self._autosave, self._sha256 = app, None, None
-        self._worker, self._has_work = Worker(), False
+    def __init__(self, workspace: Workspace):
+        self.workspace, self._autosave, self._sha256 = workspace, None, None
+        self._runner, self._has_work, self._left = JobRunner(), False, None
         self.notice, self.news = Question(), Question()
         self.versions = Dropdown(description="version", layout=Layout(width="auto", max_width="100%"))
         super().__init__([self.notice])
-        app.observe(self._take_edit, ("weights", "steps"))
-        app.solving.observe(self._take_edit, ("spacing", "solver"))
-        app.picker.observe(self._take_edit, "drawing")
+        workspace.observe(self._take_edit, ("document", "settled"))
+        workspace.guard_section(self._leave_section)
+
+    @property
+    def path(self) -> Path | None:
+        """Where the session is kept."""
+        return self.workspace.session_path
 
     def keep(self, path: str | Path | None) -> None:
         """Keep the work under this path from now on, or nowhere.
@@ -78,7 +82,7 @@ class SessionBar(VBox):
         self.news.hint("")
         if path in _in_use:
             _in_use[path].give_up()
-        self.path, _in_use[path] = path, self
+        self.workspace.session_path, _in_use[path] = path, self
         versions = find_versions(path)
         if versions:
             self._offer(versions)
@@ -90,10 +94,10 @@ class SessionBar(VBox):
     def end(self) -> None:
         """Save what is not saved yet, and then keep the work nowhere; a DataError if it cannot be saved."""
         path, autosave = self.path, self._autosave
-        self.path = self._autosave = None
+        self.workspace.session_path = self._autosave = None
         if _in_use.get(path) is self:
             del _in_use[path]
-        self._worker.cancel()
+        self._runner.drop()
         self.notice.hint("")
         if autosave is not None:
             autosave.close()
@@ -106,18 +110,10 @@ class SessionBar(VBox):
             self.end()
         self.notice.hint(f"Another app keeps its work in {path} now; this one saves no more.")
 
-    @contextlib.contextmanager
-    def turned(self):
-        """A context in which the app turns to another section: what is saved so far is set aside, and stays.
-
-        Raises
-        ------
-        DataError
-            If it cannot be; the context is not entered then.
-        """
+    def _leave_section(self):
+        """Set the work aside before another section is opened; a DataError, if it cannot be saved, prevents that."""
         path = self.path
         if self._autosave is None:
-            yield
             return
         try:
             self.end()
@@ -125,29 +121,30 @@ class SessionBar(VBox):
         except DataError:
             self._begin(path)
             raise
-        try:
-            yield
-        finally:
-            self._begin(path)
-            self.notice.hint(f"The work on the earlier section stays in {aside}." if aside else "")
+        self._left = path, aside
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is being opened; False if that took too long."""
-        return self._worker.wait(timeout)
+        return self._runner.wait(timeout)
 
     def _begin(self, path):
         """Save under a path from now on."""
-        self.path, _in_use[path] = path, self
-        self._sha256 = section_sha256(self._app.section)
+        self.workspace.session_path, _in_use[path] = path, self
+        self._sha256 = section_sha256(self.workspace.section)
         self._autosave, self._has_work = Autosave(path, report=self._report), False
         self._take_edit()
 
     def _take_edit(self, change=None):
         """Have the work saved, from the first pick or held point on."""
-        app, drawn = self._app, self._app.picker.drawing
-        self._has_work = self._has_work or bool(drawn.picks) or drawn.fixed is not None
-        if self._autosave is not None and self._has_work:
-            self._autosave.save(session_of(drawn, app.plan, app.section, self._sha256, app.source, self.path))
+        if self._left is not None:
+            (path, aside), self._left = self._left, None
+            self._begin(path)
+            self.notice.hint(f"The work on the earlier section stays in {aside}." if aside else "")
+            return
+        document = self.workspace.document
+        self._has_work = self._has_work or bool(document.drawing.picks) or document.plan.fixed is not None
+        if self._autosave is not None and self._has_work and self.workspace.settled:
+            self._autosave.save(session_of(document, self._sha256, self.path))
 
     def _report(self, error):
         """Say that saving fails, or works again; on the thread that saves."""
@@ -185,8 +182,8 @@ class SessionBar(VBox):
 
     def _open(self, read_outside=False):
         session = self.versions.value.session
-        if session.sha256 == section_sha256(self._app.section):
-            self._take(session, self._app.section)
+        if session.sha256 == section_sha256(self.workspace.section):
+            self._take(session, self.workspace.section)
         elif self._is_outside(session.source) and not read_outside:
             self.notice.ask(
                 f"Its section is read from {session.source.name}, which lies outside the session's folder.",
@@ -194,7 +191,8 @@ class SessionBar(VBox):
             )
         else:
             self.notice.hint(f"Opening the section from {session.source.kind} {session.source.name} ...")
-            self._worker.ask(lambda wanted: self._load(session, wanted))
+            take, fail = partial(self._take, session), lambda error: self._ask_again(in_words(error))
+            self._runner.submit(Job(lambda job: session.open_section(), take, fail))
 
     def _is_outside(self, source):
         if source.kind != FILE:
@@ -205,17 +203,8 @@ class SessionBar(VBox):
             return True
         return False
 
-    def _load(self, session, wanted):
-        """Open a session's section, on the worker's thread."""
-        try:
-            section = session.open_section()
-            if wanted():
-                self._take(session, section)
-        except Exception as error:  # noqa: BLE001 - nobody else would hear of it on this thread
-            self._ask_again(in_words(error))
-
     def _open_picks(self):
-        session, section = self.versions.value.session, self._app.section
+        session, section = self.versions.value.session, self.workspace.section
         if not drawing_of(session).lies_on(section):
             self._ask_again("These picks do not lie on the section that is shown; Open opens theirs")
             return
@@ -223,10 +212,11 @@ class SessionBar(VBox):
 
     def _take(self, session, section, of_other=False):
         """Show a session's work, and go on with it."""
-        source = self._app.source if of_other else session.source
-        self._app.begin(section, drawing_of(session), source=source, plan=session.plan)
-        self._begin(self.path)
-        self.notice.hint(f"Opened {self.versions.value.path}.")
+        source = self.workspace.source if of_other else session.source
+        path, version = self.path, self.versions.value.path
+        self.workspace.open(section, drawing_of(session), source=source, plan=session.plan)
+        self._begin(path)
+        self.notice.hint(f"Opened {version}.")
 
 
 def _checked(path):
@@ -240,5 +230,30 @@ def _checked(path):
 
 def _words(version: Version) -> str:
     """A version in a line: when it was saved, and what it holds."""
-    held = ", a point held" * (version.session.fixed is not None)
+    held = ", a point held" * (version.session.plan.fixed is not None)
     return f"{version.saved:%d %b %Y, %H:%M:%S}: {counted(version.session)}{held} ({version.path.name})"
+
+
+def session_of(document: Document, sha256: str, path: Path) -> Session | SessionWithSection:
+    """Session of a document, to be saved under a path; the draft line is left out.
+
+    A section without a source is saved with it.
+    """
+    faults, horizons = (_saved(document.drawing, kind) for kind in (FAULT, HORIZON))
+    source = document.source or source_beside(path, sha256)
+    session = Session(source, sha256, faults, horizons, document.plan)
+    return session if document.source else SessionWithSection(session, document.section)
+
+
+def _saved(drawing, kind):
+    picks = (pick for pick in drawing.picks if pick.kind == kind)
+    return tuple(SavedPick(pick.name, pick.pieces, pick.colour, pick.visible) for pick in picks)
+
+
+def drawing_of(session: Session) -> Drawing:
+    """The picks of a session, with their looks, even those that cannot be used."""
+    drawing = Drawing()
+    for kind, picks in ((FAULT, session.faults), (HORIZON, session.horizons)):
+        for pick in picks:
+            drawing = drawing.with_pick(kind, pick.name, pick.pieces, pick.colour, pick.visible)
+    return drawing

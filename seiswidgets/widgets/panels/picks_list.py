@@ -9,10 +9,11 @@ from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.interaction.drawing import FAULT, HORIZON, Pick
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.widgets.messages import TROUBLE
+from seiswidgets.widgets.severity import remark
 
 TITLES = {FAULT: "Faults", HORIZON: "Horizons"}
 NONE_YET = " <i>none yet: choose {} and click along one</i>"
-NARROW = Layout(width="34px", min_width="34px", padding="0")
+NARROW = {"width": "34px", "min_width": "34px", "padding": "0"}  # a Layout would be shared by all apps
 
 
 class PicksList(VBox):
@@ -32,14 +33,14 @@ class PicksList(VBox):
         super().__init__()
         self.update({})
 
-    def update(self, complaints: dict[str, str]) -> None:
-        """Show the editor's picks as they are, and beside them what is wrong, by name."""
+    def update(self, complaints: dict[str, tuple[str, str]]) -> None:
+        """Show the editor's picks as they are, and beside each its complaint: a severity and a text, by name."""
         children = []
         for kind, rows in self._rows.items():
             picks = [pick for pick in self._pen.drawing.picks if pick.kind == kind]
             rows.extend(_Row(self) for _ in range(len(picks) - len(rows)))
             for row, pick in zip(rows, picks, strict=False):
-                row.update(pick, self._is_chosen(pick), complaints.get(pick.name, ""))
+                row.update(pick, self.is_chosen(pick), complaints.get(pick.name))
             self._titles[kind].value = f"<b>{TITLES[kind]}</b>" + ("" if picks else NONE_YET.format(kind.title()))
             children += [self._titles[kind], *rows[: len(picks)]]
         if tuple(children) != self.children:
@@ -60,7 +61,8 @@ class PicksList(VBox):
         """Whose picks are listed."""
         return self._pen
 
-    def _is_chosen(self, pick):
+    def is_chosen(self, pick: Pick) -> bool:
+        """Whether a pick, or a part of it, is selected."""
         chosen = self._pen.state.selection
         return chosen is not None and (chosen.kind, chosen.name) == (pick.kind, pick.name)
 
@@ -69,7 +71,7 @@ class _Row(VBox):
     """One pick."""
 
     def __init__(self, owner):
-        self._owner, self._pick, self._updating = owner, None, False
+        self._owner, self._pick = owner, Pick(FAULT, "", (), "")
         self._choose = ToggleButton(icon="crosshairs", layout=NARROW)
         self._colour = ColorPicker(concise=True, layout=Layout(width="32px", min_width="32px"))
         self._visible = ToggleButton(icon="eye", layout=NARROW)
@@ -84,42 +86,41 @@ class _Row(VBox):
         self._name.observe(self._on_name, "value")
         self._delete.on_click(lambda _: self._edit(owner.editor.delete))
 
-    def update(self, pick: Pick, chosen: bool, complaint: str):
+    def update(self, pick: Pick, chosen: bool, complaint: tuple[str, str] | None):
         """Show a pick."""
-        self._pick, self._updating = pick, True
-        try:
-            self._name.value, self._visible.value, self._choose.value = pick.name, pick.visible, chosen
-            self._colour.value = pick.colour
-            self._visible.icon = "eye" if pick.visible else "eye-slash"
-            act = "hide" if pick.visible else "show"
-            self._choose.tooltip = f"select this {pick.kind}: a further line becomes a piece of a selected horizon"
-            self._visible.tooltip = f"{act} this {pick.kind}; it is restored with all the same"
-            self._name.tooltip = f"name of this {pick.kind}"
-            self._delete.tooltip = f"delete this {pick.kind}; undo brings it back"
-            self._say(complaint)
-        finally:
-            self._updating = False
+        self._pick = pick  # first: a control that is made to show it then changes nothing
+        self._name.value, self._visible.value, self._choose.value = pick.name, pick.visible, chosen
+        self._colour.value = pick.colour
+        self._visible.icon = "eye" if pick.visible else "eye-slash"
+        act = "hide" if pick.visible else "show"
+        self._choose.tooltip = f"select this {pick.kind}: a further line becomes a piece of a selected horizon"
+        self._visible.tooltip = f"{act} this {pick.kind}; hidden picks take part in the restoration"
+        self._name.tooltip = f"name of this {pick.kind}"
+        self._delete.tooltip = f"delete this {pick.kind}; undo brings it back"
+        self._say(remark(*complaint) if complaint else "")
 
-    def _say(self, text):
-        self._message.value = TROUBLE.format(escape(text))
-        self._message.layout.display = "" if text else "none"
+    def _say(self, html):
+        self._message.value = html
+        self._message.layout.display = "" if html else "none"
 
     def _edit(self, action, *arguments):
-        if self._updating:
-            return
         wrong = self._owner.edit(action, self._pick.kind, self._pick.name, *arguments)
         if wrong:
-            self._say(wrong)
+            self._say(TROUBLE.format(escape(wrong)))
 
     def _on_choose(self, change):
-        editor = self._owner.editor
-        self._edit(editor.select) if change.new else self._edit(lambda kind, name: editor.deselect())
+        if change.new != self._owner.is_chosen(self._pick):
+            editor = self._owner.editor
+            self._edit(editor.select if change.new else lambda kind, name: editor.deselect())
 
     def _on_colour(self, change):
-        self._edit(self._owner.editor.recolour, change.new)
+        if change.new != self._pick.colour:
+            self._edit(self._owner.editor.recolour, change.new)
 
     def _on_visible(self, change):
-        self._edit(self._owner.editor.show, change.new)
+        if change.new != self._pick.visible:
+            self._edit(self._owner.editor.show, change.new)
 
     def _on_name(self, change):
-        self._edit(self._owner.editor.rename, change.new)
+        if change.new != self._pick.name:
+            self._edit(self._owner.editor.rename, change.new)

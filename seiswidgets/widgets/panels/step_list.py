@@ -12,6 +12,8 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import FLATTEN, UNFAULT, Plan, Step
+from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.key_guard import KeyGuard
 
 ALL = {UNFAULT: "all faults", FLATTEN: "first horizon"}  # what no picks mean
 ICONS = {"up": "arrow-up", "down": "arrow-down", "remove": "trash"}
@@ -106,7 +108,7 @@ class StepRow(VBox):
         self._choice.observe(self._choose, "value")
 
 
-class StepList(VBox):
+class StepList(WithParts, VBox):
     """The steps of a plan, one a row: on or off, what it works on, the datum, and buttons to move and remove it.
 
     With the keyboard: Tab goes through a row's controls and on to the next, Space or Enter presses a button; the focus
@@ -141,7 +143,7 @@ class StepList(VBox):
         self._rows = []  # as many as there ever were steps
         self._table = VBox()
         adders = [_adder(kind, self._add) for kind in (UNFAULT, FLATTEN)]
-        super().__init__([self._table, HBox(adders)], **traits)
+        super().__init__([KeyGuard(), self._table, HBox(adders)], **traits)
         self._adder = adders[0]
         self.steps = Plan().steps if steps is None else tuple(steps)
 

@@ -7,6 +7,8 @@ from ipywidgets import HTML, Button, FloatLogSlider, HBox, Label, Layout, VBox
 from traitlets import Instance, observe
 
 from seiswidgets.geology.weights import Weights
+from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.key_guard import KeyGuard
 
 LOWEST, HIGHEST = -2, 3  # powers of 10
 STEP = 0.05  # of the power: twenty to a factor of ten
@@ -39,7 +41,7 @@ GROUPS = {
 }
 
 
-class WeightSliders(VBox):
+class WeightSliders(WithParts, VBox):
     """The weights on logarithmic sliders from 0.01 to 1,000, under the paper's symbols, and a button that resets them.
 
     A weight that is set from code and has no place on its slider, as 0, is kept until that slider is moved. With the
@@ -62,7 +64,7 @@ class WeightSliders(VBox):
         groups = [_group(title, [self._row(term) for term in terms]) for title, terms in GROUPS.items()]
         reset = Button(description="Reset", tooltip="Set all weights to those of the paper", icon="undo")
         reset.on_click(lambda _: self.set_trait("weights", Weights()))
-        super().__init__([*groups, reset], **traits)
+        super().__init__([KeyGuard(), *groups, reset], **traits)
         self.weights = Weights() if weights is None else weights
 
     def _row(self, term):

@@ -2,20 +2,19 @@
 
 from contextlib import contextmanager
 from io import BytesIO
-from threading import RLock
 
 import numpy as np
 from ipycanvas import Canvas
 from ipycanvas.canvas import _CANVAS_MANAGER, COMMANDS
 from PIL import Image
 
-LOCK = RLock()  # callbacks may run on several threads, and all canvases share one manager
+from seiswidgets.widgets.jobs import UI_LOCK
 
 
 @contextmanager
 def held():
     """Send all that is drawn inside in one message; nothing of it after an exception. Holds may be nested."""
-    with LOCK:
+    with UI_LOCK:
         if _CANVAS_MANAGER._caching:
             yield
             return

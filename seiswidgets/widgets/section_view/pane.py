@@ -11,13 +11,17 @@ from seiswidgets.errors import SeiswidgetsError, SettingError
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.colour import Colouring, clip_limit, colour_map
 from seiswidgets.interaction.gestures import Gesture
-from seiswidgets.interaction.messages import PointerMessage, axes_state, gesture_of
+from seiswidgets.interaction.messages import GestureReader, PointerMessage, axes_state
 from seiswidgets.interaction.navigation import KEYS, Navigation
 from seiswidgets.interaction.overlay import Mark, Overlay, Stroke, map_state, mesh_state
+from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport, checked_window
+from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.order import keep_order
-from seiswidgets.widgets.section_view.canvas import LOCK, held
+from seiswidgets.widgets.section_view.badge import PaneBadge
+from seiswidgets.widgets.section_view.canvas import held
 from seiswidgets.widgets.section_view.painter import Painter
 from seiswidgets.widgets.section_view.pointer_layer import PointerLayer
 
@@ -25,7 +29,7 @@ LEFT, TOP, RIGHT, BOTTOM = 64, 10, 16, 42  # css pixels about the plot area, for
 QUIET = ("hover", "leave", "rest", "size")  # what happens without anybody doing anything, and leaves the message alone
 
 
-class SectionPane(VBox):
+class SectionPane(WithParts, VBox):
     """A section with axes: the wheel zooms at the pointer, a drag pans, a double click or 0 fits, + and - zoom.
 
     Two fingers zoom and pan as well; the middle button or Space held pan even where a drag does something else.
@@ -62,7 +66,12 @@ class SectionPane(VBox):
         Whose edges are drawn; may be set. The vertices are in the section's units.
     rubber : sequence of (x, z)
         A dashed line that goes on to the pointer; may be set.
+    projection : callable() -> PaneProjection
+        How the pane shows the present-day section, in whose coordinates gestures are; may be set. That of a pane of
+        the present-day section itself if not.
     layer : PointerLayer
+    badge : PaneBadge
+        Frame and label that mark the picture, as one of a result that needs a look.
     message : str
         What is said below the pane, of an error mostly.
 
@@ -89,11 +98,13 @@ class SectionPane(VBox):
 
     def __init__(self, section: Section, *, exaggeration: float | None = None, **settings):
         self._navigation, self._mesh, self._will_move = Navigation(), None, False
-        self._gesture_listeners, self._hover_listeners = [], []
+        self._gesture_listeners, self._hover_listeners, self._gestures = [], [], GestureReader()
+        self.projection = lambda: PaneProjection(self.view)
         self._painter = Painter(_placed())
         self._painter.canvas.add_class("seiswidgets-plot")
         self.layer = PointerLayer(hotkeys=list(KEYS), layout=_placed())
-        self._grid = GridBox([self._painter.canvas, self.layer], layout=_grid_layout(480))
+        self.badge = PaneBadge(_placed())
+        self._grid = GridBox([self._painter.canvas, self.layer, self.badge], layout=_grid_layout(480))
         self._line = HTML(layout=Layout(display="none"))
         super().__init__([self._grid, self._line], section=section, view=Viewport(section), **settings)
         self._grid.layout.height = f"{self.height}px"
@@ -154,7 +165,7 @@ class SectionPane(VBox):
         self.layer.rubber = [[float(x), float(z)] for x, z in points if np.isfinite((x, z)).all()]
 
     def on_gesture(self, callback: Callable[[Gesture], bool]) -> None:
-        """Call a function with each gesture, which says whether it consumed it; else it zooms or pans."""
+        """Call a function with each gesture; it returns whether it consumed it. If not, the pane zooms or pans."""
         self._gesture_listeners.append(callback)
 
     def on_hover(self, callback: Callable[[tuple[float, float] | None], None]) -> None:
@@ -216,13 +227,13 @@ class SectionPane(VBox):
 
     @observe("colours", "clip", "limit", "gain", "polarity")
     def _take_colours(self, change):
-        with LOCK:
+        with UI_LOCK:
             self._painter.colour(self.colouring)
             self._painter.draw(self.view)
 
     @observe("overlay", "overlay_opacity")
     def _take_overlay(self, change):
-        with LOCK:
+        with UI_LOCK:
             if change.name == "overlay":
                 self._painter.cover(self.overlay)
             self._painter.opacity = self.overlay_opacity
@@ -239,7 +250,7 @@ class SectionPane(VBox):
 
     def _receive(self, message: PointerMessage):
         """Do what the browser asks, and say below the pane what went wrong."""
-        with LOCK:
+        with UI_LOCK:
             try:
                 self._act(message)
             except SeiswidgetsError as error:
@@ -262,7 +273,7 @@ class SectionPane(VBox):
     def _is_consumed(self, message):
         if message.pan or self._navigation.is_panning:
             return False
-        gesture = gesture_of(message, self.view)
+        gesture = self._gestures.read(message, self.projection())
         return gesture is not None and any(listen(gesture) for listen in self._gesture_listeners)
 
     def _tell_hover(self, message):

@@ -10,12 +10,16 @@ from traitlets import Dict, Float, List, Unicode
 from seiswidgets.interaction.messages import PointerMessage
 
 LAYER = Path(__file__).parent / "layer"
+KEEP_KEYS = LAYER.parents[1] / "keep_keys.js"
 SCRIPTS = ("svg", "plane", "axes", "lines", "marks", "mesh", "cursors", "carry", "lanes", "hand", "keys", "layer")
 ANSWERED = ("drag", "hover", "wheel", "pinch")  # of these the browser sends none before the last is answered
 
 
 def joined(*scripts: Path) -> str:
-    """Scripts as one ES module: they share one scope, so that no build step is needed."""
+    """Scripts as one ES module: they share one scope, so that no build step is needed.
+
+    Style sheets are passed to anywidget as text too: a file that it reads itself keeps every widget alive for ever.
+    """
     return "\n".join(script.read_text("utf-8") for script in scripts)
 
 
@@ -55,8 +59,8 @@ class PointerLayer(anywidget.AnyWidget):
         What a screen reader says of it.
     """
 
-    _esm = joined(*(LAYER / f"{name}.js" for name in SCRIPTS))
-    _css = LAYER / "layer.css"
+    _esm = joined(KEEP_KEYS, *(LAYER / f"{name}.js" for name in SCRIPTS))
+    _css = joined(LAYER / "layer.css")
 
     axes = Dict().tag(sync=True)
     window = List().tag(sync=True)

@@ -9,6 +9,7 @@ from PIL import Image, ImageDraw
 
 from seiswidgets.interaction.colour import resampled
 from seiswidgets.widgets.section_view.pane import SectionPane
+from seiswidgets.widgets.severity import LOOKS
 
 SIZE = 460, 320  # pixels of a section
 LEFT, TOP, BOTTOM, GAP = 56, 22, 34, 14
@@ -40,6 +41,8 @@ def _drawn(title, pane):
             draw.line((view.to_pixels(run) + (LEFT, TOP)).ravel().tolist(), fill=stroke["colour"], width=2)
     draw.rectangle((LEFT, TOP, LEFT + SIZE[0], TOP + SIZE[1]), outline=INK)
     draw.text((LEFT, 4), title, fill=INK)
+    if pane.badge.severity:
+        _draw_badge(draw, pane.badge)
     x, z = view.ticks()
     for place, label in zip(x.pixels, x.labels, strict=True):
         draw.text((LEFT + place, TOP + SIZE[1] + 3), label, fill=INK, anchor="ma")
@@ -47,6 +50,15 @@ def _drawn(title, pane):
         draw.text((LEFT - 5, TOP + place), label, fill=INK, anchor="rm")
     draw.text((LEFT + SIZE[0] / 2, TOP + SIZE[1] + 17), f"{x.title}; {z.title} downwards", fill=INK, anchor="ma")
     return picture
+
+
+def _draw_badge(draw, badge):
+    """Draw a pane's coloured frame, and its label above the upper right corner."""
+    fill, ink = LOOKS[badge.severity].colours
+    right, text = LEFT + SIZE[0], f"{badge.severity}: {badge.text}"
+    draw.rectangle((LEFT, TOP, right, TOP + SIZE[1]), outline=fill, width=3)
+    draw.rectangle((right - draw.textlength(text) - 12, 2, right, TOP), fill=fill)
+    draw.text((right - 6, 11), text, fill=ink, anchor="rm")
 
 
 def _section(pane, view):

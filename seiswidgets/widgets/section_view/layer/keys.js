@@ -39,7 +39,7 @@ class Keys {
     const withCtrl = pressed.includes("ctrl") || pressed.includes("meta");
     const isSpace = event.key === " " && !withCtrl;
     if (!isSpace && !this.isTaken((withCtrl ? "Ctrl+" : "") + event.key)) return; // Tab among them: it leaves the pane
-    this.keep(event);
+    event.preventDefault();
     if (!isSpace) this.tell("key", event, { key: event.key });
     else if (!event.repeat) {
       this.hasPanned = false;
@@ -49,13 +49,8 @@ class Keys {
 
   release(event) {
     if (event.key !== " " || !this.isSpaceDown) return;
-    this.keep(event);
+    event.preventDefault();
     this.setSpace(false);
     if (!this.hasPanned && this.isTaken(" ")) this.tell("key", event, { key: " " });
-  }
-
-  keep(event) {
-    event.preventDefault();
-    event.stopPropagation();
   }
 }

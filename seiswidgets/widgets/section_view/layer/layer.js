@@ -22,7 +22,6 @@ class Layer {
   constructor(model, el) {
     this.model = model;
     el.classList.add("seiswidgets-layer");
-    el.setAttribute("data-lm-suppress-shortcuts", "true"); // or JupyterLab would take "0 0" for restarting the kernel
     this.plot = element("svg", "plot", el, { tabindex: 0, role: "application" });
     this.axes = element("g", "axes", this.plot);
     const inside = element("svg", "inside", this.plot, { width: "100%", height: "100%" }); // cuts off what sticks out
@@ -129,6 +128,7 @@ function render({ model, el }) {
   keys.listenTo(listen);
   new Hand(layer.plot, layer.plane, keys, roads, does).listenTo(listen);
   const unfollow = follow(model, layer, roads);
+  const endKeeping = keepKeys(() => el.parentElement); // with the canvases below
   const watcher = new ResizeObserver(() => layer.report());
   watcher.observe(layer.plot);
   window.addEventListener("resize", () => layer.report(), { signal: ended.signal }); // the browser's own zoom
@@ -137,6 +137,7 @@ function render({ model, el }) {
     watcher.disconnect();
     clearTimeout(layer.resting);
     unfollow();
+    endKeeping();
   };
 }
 

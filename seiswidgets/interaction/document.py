@@ -1,0 +1,145 @@
+"""The document that is edited, and the history that undoes and redoes every change of it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from seiswidgets.geology.plan import Plan
+from seiswidgets.geology.section import Section
+from seiswidgets.interaction.drawing import Drawing, PickSelection
+
+
+@dataclass(frozen=True)
+class Document:
+    """Everything that an edit can change: a section, the picks drawn on it, and the plan to restore it.
+
+    Attributes
+    ----------
+    section : Section
+    drawing : Drawing
+    plan : Plan
+    source : SectionSource or None
+        Where the section comes from; None for a section made in memory.
+    """
+
+    section: Section
+    drawing: Drawing = field(default_factory=Drawing)
+    plan: Plan = field(default_factory=Plan)
+    source: object = None
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A document before or after an edit: what the edit was, and what was selected then."""
+
+    label: str
+    document: Document
+    selection: PickSelection | None
+
+
+class EditHistory:
+    """The current document, with unlimited undo and redo.
+
+    A drag changes the document many times and counts as one edit: ``amend`` changes it, and ``commit`` makes all
+    changes since the last commit one edit. ``edit`` does both.
+
+    Parameters
+    ----------
+    document : Document
+    changed : callable(), optional
+        Called after each change of the document or of what can be undone.
+    check : callable(Document), optional
+        Called with the new document before each edit, undo and redo; it may raise to prevent it.
+    """
+
+    def __init__(
+        self,
+        document: Document,
+        changed: Callable[[], None] = lambda: None,
+        check: Callable[[Document], None] = lambda document: None,
+    ):
+        self._document = self._committed = document
+        self._changed, self._check = changed, check
+        self._past: list[Entry] = []
+        self._future: list[Entry] = []
+
+    @property
+    def document(self) -> Document:
+        """The current document, changes that are not committed yet included."""
+        return self._document
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether all changes are committed: no drag is in progress."""
+        return self._document == self._committed
+
+    @property
+    def undo_count(self) -> int:
+        """Number of edits that can be undone."""
+        return len(self._past)
+
+    @property
+    def redo_count(self) -> int:
+        """Number of edits that can be made again."""
+        return len(self._future)
+
+    @property
+    def next_undo(self) -> Entry | None:
+        """The edit that ``undo`` would undo, with the document before it; None if there is none."""
+        return self._past[-1] if self._past else None
+
+    @property
+    def next_redo(self) -> Entry | None:
+        """The edit that ``redo`` would make again, with the document after it; None if there is none."""
+        return self._future[-1] if self._future else None
+
+    def amend(self, **changes) -> None:
+        """Change fields of the document without recording an edit yet."""
+        self._take(replace(self._document, **changes), self._committed)
+
+    def commit(self, label: str, selection: PickSelection | None = None) -> None:
+        """Record all changes since the last commit as one edit, with what was selected before it."""
+        if self._document != self._committed:
+            self._past.append(Entry(label, self._committed, selection))
+            self._future.clear()
+        self._take(self._document, self._document)
+
+    def edit(self, label: str, selection: PickSelection | None = None, **changes) -> None:
+        """Change fields of the document and record the edit; no change is no edit."""
+        document = replace(self._document, **changes)
+        self._check(document)
+        if document != self._committed:
+            self._past.append(Entry(label, self._committed, selection))
+            self._future.clear()
+        self._take(document, document)
+
+    def undo(self, selection: PickSelection | None = None) -> Entry | None:
+        """Undo the last edit; return what was before it, or None if there is no edit."""
+        return self._travel(self._past, self._future, selection)
+
+    def redo(self, selection: PickSelection | None = None) -> Entry | None:
+        """Make the edit again that was undone last; return what is after it, or None if there is none."""
+        return self._travel(self._future, self._past, selection)
+
+    def forget(self) -> None:
+        """Make the current document the beginning, before which nothing can be undone."""
+        self._past.clear()
+        self._future.clear()
+        self._committed = self._document
+        self._changed()
+
+    def _travel(self, source, target, selection):
+        if not source:
+            return None
+        self._check(source[-1].document)
+        entry = source.pop()
+        target.append(Entry(entry.label, self._committed, selection))
+        self._take(entry.document, entry.document)
+        return entry
+
+    def _take(self, document, committed):
+        is_new = document != self._document or committed != self._committed
+        if document != self._document:
+            self._document = document
+        self._committed = self._document if committed == self._document else committed
+        if is_new:
+            self._changed()

@@ -1,0 +1,99 @@
+"""The verdict on a restoration: whether its result can be trusted, in a few words."""
+
+from dataclasses import dataclass
+
+from seiswidgets.geology.findings import Finding, worst_first
+from seiswidgets.geology.restoration import Restoration
+from seiswidgets.widgets.severity import GOOD
+
+UNSETTLED = "unsettled"
+TITLES = {
+    UNSETTLED: "not settled",
+    "cut-off": "cut-offs apart",
+    "contact": "fault sides apart",
+    "overlap": "rock on rock",
+    "fault end": "fault end",
+    "bed length": "bed length changed",
+    "datum": "off its datum",
+}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The verdict on a restoration.
+
+    Attributes
+    ----------
+    severity : {"good", "warning", "problem"}
+    title : str
+        A few words, such as "not settled".
+    text : str
+        One sentence: that of the worst finding, if there is a warning or a problem.
+    rest : str
+        Where to find the other findings, "" if there are none.
+    findings : tuple of Finding
+        All of them, worst first.
+    """
+
+    severity: str
+    title: str
+    text: str
+    rest: str = ""
+    findings: tuple[Finding, ...] = ()
+
+    @classmethod
+    def of(cls, restoration: Restoration) -> "Verdict":
+        """Judge a restoration by the findings of its stages."""
+        findings = findings_of(restoration)
+        grave = [finding for finding in findings if finding.severity != "note"]
+        if not grave:
+            return cls(GOOD, "Settled", _achievements(restoration), _notes(len(findings)), findings)
+        worst = grave[0]
+        title = f"check: {title_of(worst)}" if worst.severity == "warning" else title_of(worst)
+        rest = f"and {len(grave) - 1} more (see Report)" if grave[1:] else ""
+        return cls(worst.severity, title, worst.text, rest, findings)
+
+    @property
+    def is_good(self) -> bool:
+        """Whether there is neither a warning nor a problem."""
+        return self.severity == GOOD
+
+    def __str__(self):
+        joint = ". " if self.is_good else ": "
+        return joint.join(filter(None, (self.title, f"{self.text} {self.rest}".strip())))
+
+
+def findings_of(restoration: Restoration) -> tuple[Finding, ...]:
+    """Findings of all stages, worst first; a stage that did not settle has one that says so."""
+    found = []
+    for stage in restoration.stages:
+        report = stage.report
+        if not report.converged and all(finding.kind != UNSETTLED for finding in report.findings):
+            found.append(_unsettled(report))
+        found += report.findings
+    return worst_first(found)
+
+
+def title_of(finding: Finding) -> str:
+    """Name a finding in two or three words."""
+    return TITLES.get(finding.kind, finding.kind)
+
+
+def _unsettled(report):
+    text = (
+        f"{report.kind} {', '.join(report.picks)} did not settle in {report.iterations} iterations; simplify the "
+        "picks, change the weights, or use a coarser mesh"
+    )
+    return Finding("problem", UNSETTLED, text)
+
+
+def _achievements(restoration):
+    """State what no finding denies: that cut-offs meet, and that horizons are level."""
+    reports = [stage.report for stage in restoration.stages]
+    level = [bed.horizon for bed in reports[-1].beds if bed.flatness is not None]  # later stages may bend earlier beds
+    meet = ["Cut-offs meet."] if any(report.cutoffs for report in reports) else []
+    return " ".join([*meet, *(f"{name} lies on its datum." for name in level)])
+
+
+def _notes(count):
+    return f"{count} note{'s' if count > 1 else ''} (see Report)" if count else ""

@@ -1,0 +1,127 @@
+"""Everything that a user has done in an app, as one value, and as text that a browser can keep."""
+
+import contextlib
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+
+from traitlets import HasTraits, TraitError
+
+from seiswidgets.errors import DataError, SeiswidgetsError
+from seiswidgets.geology.plan import Plan
+from seiswidgets.geology.section import Section
+from seiswidgets.interaction.document import Document
+from seiswidgets.interaction.drawing import FAULT, HORIZON, DraftLine, Drawing
+from seiswidgets.io.document import MOST_JSON_BYTES, Entry, json_text, parse_json
+from seiswidgets.io.session.file import session_document, session_fields
+from seiswidgets.io.session.session import Session
+from seiswidgets.io.session.sources import SectionSource
+from seiswidgets.widgets.files.session_bar import drawing_of, session_of
+
+KEPT = Path("what the browser kept")  # where errors say that a text comes from
+
+
+@dataclass(frozen=True)
+class Work:
+    """The picks with their looks, the line being drawn, the plan, and how the app was set.
+
+    Attributes
+    ----------
+    drawing : Drawing
+    plan : Plan
+    settings : dict
+        Traits of the app and its parts, by name.
+    """
+
+    drawing: Drawing = field(default_factory=Drawing)
+    plan: Plan = field(default_factory=Plan)
+    settings: dict = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, app) -> "Work":
+        """The work in an app as it is now."""
+        settings = {name: getattr(owner, name) for owner, name in _settings_of(app)}
+        return cls(app.workspace.drawing, app.workspace.plan, settings)
+
+    def put(self, app, section: Section, source: SectionSource | None) -> None:
+        """Continue this work in an app; if the app shows that section already, undo brings back what was drawn."""
+        app.workspace.open(section, self.drawing, source=source, plan=self.plan)
+        for owner, name in _settings_of(app):
+            if name in self.settings:
+                with contextlib.suppress(SeiswidgetsError, TraitError):  # of another version: the app's own stays
+                    setattr(owner, name, self.settings[name])
+
+    def text(self, section: Section, sha256: str, source: SectionSource) -> str:
+        """The work as JSON: a session's document, and what a session does not hold.
+
+        Raises
+        ------
+        PickError
+            If a name holds half a character.
+        """
+        session = session_of(Document(section, self.drawing, self.plan, source), sha256, KEPT)
+        line = self.drawing.draft
+        return json_text(
+            {
+                "session": session_document(session, KEPT),
+                "draft": None if line is None else asdict(line),
+                "settings": self.settings,
+            }
+        )
+
+    @classmethod
+    def read(cls, text: str, section: Section) -> "Work":
+        """The work in a text.
+
+        Raises
+        ------
+        SeiswidgetsError
+            If the text is damaged or comes from a newer version, or the picks do not lie on the section.
+        """
+        if len(text) > MOST_JSON_BYTES:
+            raise DataError(
+                f"{KEPT} must have at most {MOST_JSON_BYTES:,} characters, but has {len(text):,}; start over"
+            )
+        entry = parse_json(text, KEPT)
+        session = Session(**session_fields(entry["session"], allow_outside=False))
+        line = entry.optional("draft", _line, None)
+        drawing = replace(drawing_of(session), draft=line)
+        points = [*(line.points if line else ()), *([session.fixed] if session.fixed else [])]
+        if not (drawing.lies_on(section) and (not points or section.contains(points).all())):
+            raise DataError(f"{KEPT} must lie on the section, but reaches beyond it; start over")
+        return cls(drawing, session.plan, entry.optional("settings", _settings, {}))
+
+
+def observe_work(app, callback: Callable) -> None:
+    """Call a function with each change of the work in an app."""
+    app.workspace.observe(callback, ("document", "settled"))
+    for owner, name in _settings_of(app):
+        owner.observe(callback, name)
+
+
+def _settings_of(app) -> list[tuple[HasTraits, str]]:
+    """The traits that are kept besides the picks and the plan, each with the part that has it; no name comes twice."""
+    kept = {
+        app: ("live",),
+        app.picker: ("snap", "window", "follow"),
+        app.panes.original: ("colours", "clip", "gain", "polarity"),
+        app.panes: ("deformation", "mesh", "zoom_linked"),
+    }
+    return [(owner, name) for owner, names in kept.items() for name in names]
+
+
+def _line(entry: Entry) -> DraftLine:
+    kind = entry["kind"].text()
+    if kind not in (FAULT, HORIZON):
+        raise entry["kind"].error(f'"{FAULT}" or "{HORIZON}"')
+    points = entry["points"].points()
+    if not points:
+        raise entry["points"].error("one point or more")
+    return DraftLine(kind, points, entry.optional("name", Entry.text, None))
+
+
+def _settings(entry: Entry) -> dict:
+    for name, value in entry.members().items():
+        if not isinstance(value, bool | str):
+            entry[name].number()
+    return dict(entry.members())

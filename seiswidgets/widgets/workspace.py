@@ -1,0 +1,162 @@
+"""The workspace: the one owner of the section, the picks, the plan, the restoration and the session's path.
+
+Views and panels read it, observe it, and send it edits; none of them keeps a copy that would have to be kept in step.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from traitlets import Bool, HasTraits, Instance, observe, validate
+
+from seiswidgets.errors import SettingError
+from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.plan import Plan, RestorationJob
+from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.section import Section
+from seiswidgets.interaction.document import Document, EditHistory
+from seiswidgets.interaction.drawing import Drawing
+from seiswidgets.io.session.sources import SectionSource
+
+
+class Workspace(HasTraits):
+    """A section that is interpreted and restored.
+
+    Every edit of the document can be undone: picks, the held point, weights, steps, the mesh, imported picks, and a
+    change of section.
+
+    Parameters
+    ----------
+    section : Section
+    drawing : Drawing, optional
+    plan : Plan, optional
+    source : SectionSource, optional
+
+    Attributes
+    ----------
+    document : Document
+        Section, drawing, plan and source; changed by ``history`` alone. Observe it to follow all edits.
+    history : EditHistory
+    settled : bool
+        Whether the document is at rest; not while something is dragged.
+    restoration : Restoration
+        The newest on the full mesh; may be set.
+    session_path : Path or None
+        Where the work is kept; None if nowhere.
+    """
+
+    document = Instance(Document)
+    settled = Bool(True)
+    restoration = Instance(Restoration)
+    session_path = Instance(Path, allow_none=True)
+
+    def __init__(
+        self,
+        section: Section,
+        drawing: Drawing | None = None,
+        plan: Plan | None = None,
+        source: SectionSource | None = None,
+    ):
+        document = Document(section, drawing or Drawing(), plan or Plan(), source)
+        self.history = EditHistory(document, self._publish, self._check)
+        self._guards: list[Callable[[], None]] = []
+        super().__init__(document=document, restoration=Restoration(section))
+
+    @property
+    def section(self) -> Section:
+        """The present-day section."""
+        return self.document.section
+
+    @property
+    def drawing(self) -> Drawing:
+        """All picks with their looks, even those that cannot be used, and the draft line."""
+        return self.document.drawing
+
+    @property
+    def interpretation(self) -> Interpretation:
+        """Picks that are finished and valid; the same object as long as they do not change."""
+        return self.document.drawing.interpretation
+
+    @property
+    def plan(self) -> Plan:
+        """The steps, weights, mesh, solver and held point."""
+        return self.document.plan
+
+    @property
+    def source(self) -> SectionSource | None:
+        """Where the section comes from."""
+        return self.document.source
+
+    @property
+    def job(self) -> RestorationJob:
+        """The restoration that the document asks for."""
+        return RestorationJob(self.section, self.interpretation, self.plan)
+
+    def edit(self, label: str, **changes) -> None:
+        """Change fields of the document as one edit; no change is no edit."""
+        self.history.edit(label, **changes)
+
+    def change_plan(self, label: str, **choices) -> None:
+        """Change choices of the plan as one edit."""
+        self.edit(label, plan=replace(self.plan, **choices))
+
+    def open(
+        self, section: Section, drawing: Drawing, *, source: SectionSource | None = None, plan: Plan | None = None
+    ) -> None:
+        """Continue with another section and its picks, as one edit.
+
+        Parameters
+        ----------
+        section : Section
+        drawing : Drawing
+        source : SectionSource, optional
+            Where the section comes from.
+        plan : Plan, optional
+            The present steps and weights on the usual mesh, with no block held, if left out.
+
+        Raises
+        ------
+        DataError
+            If a session cannot save what was drawn on the present section.
+        """
+        plan = plan or replace(self.plan, spacing=None, fixed=self._kept_point(section))
+        self.edit(f"open {section.name or 'a section'}", section=section, drawing=drawing, source=source, plan=plan)
+
+    def as_drawn(self, interpretation: Interpretation) -> Interpretation:
+        """The interpretation that becomes the present one where this one is loaded."""
+        return self.drawing.with_interpretation(interpretation).interpretation
+
+    def picks_fit(self, section: Section) -> bool:
+        """Whether the picks and the held point lie on another section too, in the same units."""
+        same_units = (section.x_unit, section.z_unit) == (self.section.x_unit, self.section.z_unit)
+        return same_units and self.drawing.lies_on(section) and self._kept_point(section) == self.plan.fixed
+
+    def guard_section(self, check: Callable[[], None]) -> None:
+        """Call a function before each change of section; it may raise to prevent the change."""
+        self._guards.append(check)
+
+    def _kept_point(self, section):
+        fixed = self.plan.fixed
+        return fixed if fixed is not None and section.contains([fixed]).all() else None
+
+    def _check(self, document):
+        if document.section is not self.section:
+            for check in self._guards:
+                check()
+
+    def _publish(self):
+        if not self.history.is_settled:
+            self.settled = False
+        self.document = self.history.document
+        self.settled = self.history.is_settled
+
+    @observe("document")
+    def _start_anew(self, change):
+        if isinstance(change.old, Document) and change.old.section is not change.new.section:
+            self.restoration = Restoration(change.new.section)
+
+    @validate("restoration")
+    def _valid_restoration(self, proposal):
+        if proposal.value.original is not self.section:
+            raise SettingError("the restoration is of another section; open that section first")
+        return proposal.value
