@@ -57,7 +57,7 @@ class Work:
         Raises
         ------
         PickError
-            If a name holds half a character.
+            If a name contains an unpaired surrogate.
         """
         session = session_of(Document(section, self.drawing, self.plan, source), sha256, KEPT)
         line = self.drawing.draft
