@@ -17,6 +17,7 @@ from seiswidgets.geology.weights import Weights
 from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.session.sources import SectionSource
+from seiswidgets.signatures import check_keywords
 from seiswidgets.widgets.binding import bind
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.files.file_panel import FilePanel
@@ -112,7 +113,7 @@ class RestorationApp(WithParts, VBox):
         source: SectionSource | None = None,
         **settings,
     ):
-        validation.check_keywords("RestorationApp", settings, SETTINGS)
+        check_keywords("RestorationApp", settings, SETTINGS)
         if source is not None:
             validation.checked_kind(source, SectionSource, "source")
         plan = Plan(fixed=fixed, **{name: settings.pop(name) for name in ("steps", "weights") if name in settings})

@@ -15,7 +15,7 @@ from tests.widgets.byhand import is_painted
 from tests.widgets.files import line
 
 APP = """
-import os, seiswidgets as sw
+import os, time, seiswidgets as sw
 case = sw.synthetic.faulted_fold()
 app = sw.RestorationApp(case.section, session="{0}.json", source=sw.SectionSource("synthetic", "faulted_fold"),
     live=False, height=300)
@@ -25,8 +25,14 @@ EXPORTED = """
 app.interpretation, app.fixed, app.live = case.interpretation, case.fixed, True
 app.files.results.folder.value = "{0}-results"
 job = app.files.results.job
-tell = job._tell
-job._tell = lambda stop, wanted, share: (share > 0.5 and stop.wait(60), tell(stop, wanted, share))[-1]
+report = job._report
+
+def slow(work, share):
+    while share > 0.5 and work.wanted:
+        time.sleep(0.01)
+    return report(work, share)
+
+job._report = slow
 """
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
