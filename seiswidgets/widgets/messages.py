@@ -13,7 +13,7 @@ _log = logging.getLogger(__name__)
 def in_words(error: Exception) -> str:
     """What an error says; one that is not ours is logged too, as it is a mistake in seiswidgets."""
     if isinstance(error, SeiswidgetsError):
-        return str(error)
+        return error.text
     log_error(error)
     return f"this should not have happened: {type(error).__name__}: {error}"
 

@@ -4,7 +4,7 @@ import pytest
 from seiswidgets.core.contact import contacts
 from seiswidgets.core.solver import update_contacts
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue, Stitch
-from tests.core.derivatives import check_jacobian
+from tests.core.derivatives import check_curvature, check_jacobian
 from tests.core.meshes import PLANAR, arc, cut_along, rotated
 
 LINES = {"planar": PLANAR, "curved": arc(100.0)}
@@ -79,6 +79,12 @@ def test_jacobian_of_the_barrier_is_the_derivative_when_squeezed(squeeze):
     vertices = rest * [squeeze, 1]
     assert len(barrier.residual(vertices)) == len(barrier.mesh.triangles)
     check_jacobian(barrier, vertices, np.random.default_rng(9), step=1e-6)
+
+
+@pytest.mark.parametrize(("name", "squeeze"), [("edge length", 0.9), ("area barrier", 0.35), ("area barrier", 0.1)])
+def test_curvature_is_what_the_jacobian_leaves_of_the_second_derivative(name, squeeze):
+    term, rest = case("planar", name)
+    check_curvature(term, perturbed(rest * [squeeze, 1], np.random.default_rng(4), 0.5), np.random.default_rng(10))
 
 
 @SHAPE_TERMS
