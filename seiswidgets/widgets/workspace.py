@@ -124,6 +124,8 @@ class Workspace(HasTraits):
 
     def as_drawn(self, interpretation: Interpretation) -> Interpretation:
         """The interpretation that becomes the present one where this one is loaded."""
+        if interpretation is self.interpretation:
+            return interpretation  # not the same picks in another order, which would be an edit
         return self.drawing.with_interpretation(interpretation).interpretation
 
     def picks_fit(self, section: Section) -> bool:
