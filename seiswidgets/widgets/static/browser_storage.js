@@ -34,23 +34,27 @@ function storeText(name, text) {
     else shared?.removeItem(key);
   }
 }
+function storeChanges(texts, stored) {
+  let trouble = "";
+  for (const [name, text] of Object.entries(texts)) {
+    if ((stored[name] ?? "") === text) continue;
+    try {
+      storeText(name, text);
+      stored[name] = text;
+    } catch (error) {
+      trouble = error instanceof Error ? error.message : String(error);
+    }
+  }
+  return trouble;
+}
 function initialize({ model }) {
   const stored = loadTexts();
   let previous = {};
   let reported = "";
   function write() {
     const kept = model.get("kept");
-    let trouble = "";
-    for (const name of /* @__PURE__ */ new Set([...Object.keys(previous), ...Object.keys(kept)])) {
-      const text = kept[name] ?? "";
-      if ((stored[name] ?? "") === text) continue;
-      try {
-        storeText(name, text);
-        stored[name] = text;
-      } catch (error) {
-        trouble = error instanceof Error ? error.message : String(error);
-      }
-    }
+    const deleted = Object.fromEntries(Object.keys(previous).map((name) => [name, ""]));
+    const trouble = storeChanges({ ...deleted, ...kept }, stored);
     previous = kept;
     if (trouble !== reported) model.send({ kind: "trouble", text: trouble });
     reported = trouble;

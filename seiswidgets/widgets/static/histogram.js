@@ -285,14 +285,17 @@ function appendDiv(parent, className) {
   return div;
 }
 function throttledSave(model) {
-  let timer = null;
-  let last = -Infinity;
-  const save = () => {
-    [timer, last] = [null, performance.now()];
-    model.save_changes();
-  };
+  let isScheduled = false;
+  let savedAt = -Infinity;
   return () => {
-    timer ??= setTimeout(save, Math.max(0, last + PAUSE - performance.now()));
+    if (isScheduled) return;
+    isScheduled = true;
+    const delay = Math.max(0, savedAt + PAUSE - performance.now());
+    setTimeout(() => {
+      isScheduled = false;
+      savedAt = performance.now();
+      model.save_changes();
+    }, delay);
   };
 }
 function createElements(el) {

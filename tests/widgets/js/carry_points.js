@@ -19,5 +19,6 @@ const chain = maps.map(
       tolerance: map.tolerance,
     }),
 );
+/** @type {(import("../../../seiswidgets/widgets/js/pointer_layer/types.js").SectionPoint | null)[]} */
 const carried = points.map((/** @type {(number | null)[]} */ [x, z]) => carry(chain, { x: x ?? NaN, z: z ?? NaN }));
 process.stdout.write(JSON.stringify(carried.map((point) => point && [point.x, point.z])));
