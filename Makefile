@@ -11,10 +11,13 @@ BINDER := $(VENV)/binder
 BINDER_PYTHON ?= $(shell python3.11 -c 'import sys; print(sys.executable)' 2>/dev/null || command -v $(PYTHON))
 SOURCES = $(shell find seiswidgets -name '*.py' -o -name '*.js' -o -name '*.css')
 AS_ROOT = $(if $(filter 0,$(shell id -u)),--allow-root)
+# The JavaScript's tools run on the Node that comes with the tests. What npm itself writes last is their stamp.
+NPM = PATH="$(abspath $(BIN)):$$PATH" $(BIN)/npm --loglevel=error
+NODE_MODULES := node_modules/.package-lock.json
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
 
 .DEFAULT_GOAL := help
-.PHONY: help lab test check format bench docs binder binder-check
+.PHONY: help lab test check format js bench docs binder binder-check
 
 help:  ## say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -23,19 +26,25 @@ lab: $(VENV)/.lab  ## open the notebook in JupyterLab (LAB_ARGS="--no-browser" a
 	$(BIN)/jupyter lab $(AS_ROOT) $(LAB_ARGS) $(NOTEBOOK)
 
 # One thread a worker: pytest already runs as many workers as there are cores.
-test: $(VENV)/.test  ## run the tests (TEST_ARGS="-k picks" and the like are passed on)
+test: $(VENV)/.test $(NODE_MODULES)  ## run the tests (TEST_ARGS="-k picks" and the like are passed on to pytest)
+	$(NPM) run --silent test
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto $(TEST_ARGS)
 
-check: $(VENV)/.test  ## check style, the direction of imports, and that notebooks hold no output
+check: $(VENV)/.test $(NODE_MODULES)  ## check style, the direction of imports, JavaScript, and that notebooks hold no output
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/lint-imports --no-logo
+	$(NPM) run --silent check
 	$(if $(NOTEBOOKS),$(BIN)/nbstripout --verify $(NOTEBOOKS))
 
-format: $(VENV)/.test  ## put code and notebooks into the form that check wants
+format: $(VENV)/.test $(NODE_MODULES)  ## put code and notebooks into the form that check wants
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
+	$(NPM) run --silent format
 	$(if $(NOTEBOOKS),$(BIN)/nbstripout $(NOTEBOOKS))
+
+js: $(NODE_MODULES)  ## bundle the widgets' JavaScript and style sheets
+	$(NPM) run --silent build
 
 bench: $(VENV)/.bench  ## measure, beside other libraries
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
@@ -60,6 +69,11 @@ $(VENV)/.lab: pyproject.toml | $(BIN)/pip
 $(VENV)/.test: pyproject.toml $(VENV)/.lab
 	@echo "installing what the tests need"
 	@$(INSTALL) --editable '.[lab,fast,test]'
+	@touch $@
+
+$(NODE_MODULES): package.json package-lock.json .npmrc | $(VENV)/.test
+	@echo "installing what the JavaScript's checks and tests need"
+	@$(NPM) ci
 	@touch $@
 
 $(VENV)/.docs: pyproject.toml $(VENV)/.test
