@@ -13,10 +13,13 @@ BINDER := $(VENV)/binder
 BINDER_PYTHON ?= $(shell python3.11 -c 'import sys; print(sys.executable)' 2>/dev/null || command -v $(PYTHON))
 SOURCES = $(shell find seiswidgets -name '*.py' -o -name '*.js' -o -name '*.css')
 AS_ROOT = $(if $(filter 0,$(shell id -u)),--allow-root)
+# The JavaScript tools run on the Node.js among the test dependencies; npm writes their stamp file last.
+NPM = PATH="$(abspath $(BIN)):$$PATH" $(BIN)/npm --loglevel=error
+NODE_MODULES := node_modules/.package-lock.json
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
 
 .DEFAULT_GOAL := help
-.PHONY: help lab test check format bench docs package binder binder-check
+.PHONY: help lab test check format js bench docs package binder binder-check
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -25,20 +28,26 @@ lab: $(VENV)/.lab  ## open the first notebook in JupyterLab (LAB_ARGS="--no-brow
 	$(BIN)/jupyter lab $(AS_ROOT) $(LAB_ARGS) $(NOTEBOOK)
 
 # One thread per worker, since pytest runs as many workers as there are cores.
-test: $(VENV)/.test  ## run the tests (TEST_ARGS="-k picks" passes options on)
+test: $(VENV)/.test $(NODE_MODULES)  ## run the tests (TEST_ARGS="-k picks" passes options on to pytest)
+	$(NPM) run --silent test
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto $(TEST_ARGS)
 
-check: $(VENV)/.test  ## check style, types, import contracts, and that the notebooks contain no output
+check: $(VENV)/.test $(NODE_MODULES)  ## check style, types, import contracts, and that the notebooks contain no output
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/lint-imports --no-logo
 	$(BIN)/mypy
+	$(NPM) run --silent check
 	$(if $(NOTEBOOKS),$(BIN)/nbstripout --verify $(NOTEBOOKS))
 
-format: $(VENV)/.test  ## format the code and strip the notebooks, as check requires
+format: $(VENV)/.test $(NODE_MODULES)  ## format the code and strip the notebooks, as check requires
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
+	$(NPM) run --silent format
 	$(if $(NOTEBOOKS),$(BIN)/nbstripout $(NOTEBOOKS))
+
+js: $(NODE_MODULES)  ## bundle the JavaScript and the style sheets of the widgets
+	$(NPM) run --silent build
 
 bench: $(VENV)/.bench  ## run the benchmarks against other libraries
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
@@ -70,6 +79,11 @@ $(VENV)/.lab: pyproject.toml | $(BIN)/pip
 $(VENV)/.test: pyproject.toml $(VENV)/.lab
 	@echo "installing the packages for the tests"
 	@$(INSTALL) --editable '.[lab,fast,test]'
+	@touch $@
+
+$(NODE_MODULES): package.json package-lock.json .npmrc | $(VENV)/.test
+	@echo "installing the packages that check and test the JavaScript"
+	@$(NPM) ci
 	@touch $@
 
 $(VENV)/.docs: pyproject.toml $(VENV)/.test

@@ -28,6 +28,7 @@ def own_folders(tmp_path_factory):
             patch.delenv(name, raising=False)
         for name, folder in {"HOME": home, "TMPDIR": temporary, "XDG_CACHE_HOME": cache}.items():
             patch.setenv(name, str(folder))
+        patch.setenv("NODE_DISABLE_COMPILE_CACHE", "1")  # JupyterLab asks npm for a path, which would leave a cache
         patch.setattr(tempfile, "tempdir", str(temporary))
         gc.collect()
         gc.freeze()  # what has been imported is not looked through again, which makes the later collections quick

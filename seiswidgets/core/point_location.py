@@ -27,7 +27,7 @@ class TriangleFinder:
 
     def _set_grid(self, corners):
         low, high = corners.reshape(-1, 2).min(axis=0), corners.reshape(-1, 2).max(axis=0)
-        pad = TOLERANCE * (high - low).max() or 1.0
+        pad = 2 * TOLERANCE * (high - low).max() or 1.0  # as far as the tolerance extends a triangle beyond a corner
         self._low, self._high = low - pad, high + pad
         size = self._high - self._low
         side = np.sqrt(np.median(np.abs(twice_areas(corners)))) / CELLS_ACROSS

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seiswidgets.core.mesh import Mesh
+from seiswidgets.core.point_location import TOLERANCE
 from seiswidgets.errors import SettingError
 from seiswidgets.interaction.viewport import Window, checked_window
 
@@ -130,6 +131,6 @@ def mesh_state(vertices, triangles) -> dict:
 
 
 def map_state(source, target, triangles) -> dict:
-    """A piecewise affine map as the layer in the browser knows it; see `PiecewiseAffineMap`."""
-    places = {name: np.asarray(array, "<f8").tobytes() for name, array in (("source", source), ("target", target))}
-    return {**places, "triangles": np.asarray(triangles).astype("<u4").tobytes()}
+    """A piecewise affine map for the layer in the browser, which locates points as `PiecewiseAffineMap` does."""
+    shapes = {name: np.asarray(array, "<f8").tobytes() for name, array in (("source", source), ("target", target))}
+    return {**shapes, "triangles": np.asarray(triangles).astype("<u4").tobytes(), "tolerance": TOLERANCE}

@@ -1,10 +1,10 @@
 """Texts that the user's browser keeps: they outlive the kernel, and nobody else who uses the server sees them."""
 
-from pathlib import Path
-
 import anywidget
 from ipywidgets import Layout
 from traitlets import Dict, Instance, Unicode
+
+from seiswidgets.widgets.assets import asset
 
 
 class BrowserStorage(anywidget.AnyWidget):
@@ -20,7 +20,7 @@ class BrowserStorage(anywidget.AnyWidget):
         Why the browser cannot keep a text, in its own words; "" if it can.
     """
 
-    _esm = Path(__file__).with_name("browser_storage.js").read_text("utf-8")
+    _esm = asset("browser_storage.js")
 
     kept = Dict().tag(sync=True)
     found = Instance(dict, allow_none=True)

@@ -1,7 +1,5 @@
 """How the area ratio is distributed over the rock, as bars that can be brushed."""
 
-from pathlib import Path
-
 import anywidget
 import numpy as np
 from matplotlib.colors import to_hex
@@ -11,10 +9,9 @@ from traitlets import Dict, Float, List, Unicode, observe, validate
 from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
 from seiswidgets.errors import SettingError
 from seiswidgets.interaction.colour import RatioColouring
+from seiswidgets.widgets.assets import asset
 from seiswidgets.widgets.closing import WithParts
-from seiswidgets.widgets.section_view.pointer_layer import KEEP_KEYS, LAYER, joined
 
-HERE = Path(__file__).parent
 EMPTY = "Nothing restored yet: there is no deformation to show."
 ROUND = (1, 10, 0.1, 100, 0.01, 2, 0.5, 5, 0.2, 1.25, 0.8, 1.1, 0.9, 1.05, 0.95, 1.02, 0.98, 1.01, 0.99, 1.005, 0.995)
 APART = 0.09  # between two ticks at least, as a share of the axis
@@ -51,8 +48,8 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
         If there is no bin, or the brush is not a range of ratios above 0; and as for `show`.
     """
 
-    _esm = joined(KEEP_KEYS, LAYER / "svg.js", HERE / "histogram.js")
-    _css = joined(HERE / "histogram.css")
+    _esm = asset("histogram.js")
+    _css = asset("histogram.css")
 
     bars = Dict().tag(sync=True)
     summary = Unicode(EMPTY).tag(sync=True)

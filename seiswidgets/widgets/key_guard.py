@@ -1,11 +1,9 @@
 """Key presses kept from the notebook around a widget."""
 
-from pathlib import Path
-
 import anywidget
 from ipywidgets import Layout
 
-from seiswidgets.widgets.section_view.pointer_layer import KEEP_KEYS, joined
+from seiswidgets.widgets.assets import asset
 
 
 class KeyGuard(anywidget.AnyWidget):
@@ -14,7 +12,7 @@ class KeyGuard(anywidget.AnyWidget):
     Without it, x pressed on a button cuts the cell that shows it.
     """
 
-    _esm = joined(KEEP_KEYS, Path(__file__).with_name("key_guard.js"))
+    _esm = asset("key_guard.js")
 
     def __init__(self):
         super().__init__(layout=Layout(display="none"))

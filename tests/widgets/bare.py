@@ -2,7 +2,7 @@
 
 from base64 import b64encode
 
-from seiswidgets.widgets.section_view.pointer_layer import LAYER, PointerLayer
+from seiswidgets.widgets.section_view.pointer_layer import PointerLayer
 
 SIZE = 600, 400  # css pixels of the plot area
 CORNER = 100, 50  # of the page, where it begins
@@ -74,8 +74,7 @@ class BareLayer:
         self.page = self.context.new_page()
         self.page.on("console", lambda message: message.type == "error" and self.errors.append(message.text))
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        style = (LAYER / "layer.css").read_text()
-        self.page.evaluate(PAGE, [str(PointerLayer._esm), style, _plain(START | traits), size, CORNER])
+        self.page.evaluate(PAGE, [str(PointerLayer._esm), str(PointerLayer._css), _plain(START | traits), size, CORNER])
 
     def set(self, **traits):
         """Set traits as the kernel would, and wait until they are drawn."""

@@ -6,8 +6,8 @@ from tempfile import TemporaryDirectory
 import anywidget
 from traitlets import Instance, Unicode
 
+from seiswidgets.widgets.assets import asset
 from seiswidgets.widgets.files.file_names import file_name
-from seiswidgets.widgets.section_view.pointer_layer import joined
 
 MOST = 4 * 2**30  # bytes
 PART = ".part"  # what a file is called until it came whole: no other file can be called so
@@ -29,7 +29,7 @@ class Upload(anywidget.AnyWidget):
         Why a file was not taken.
     """
 
-    _esm = joined(Path(__file__).with_name("upload.js"))
+    _esm = asset("upload.js")
 
     accept = Unicode().tag(sync=True)
     path = Instance(Path, allow_none=True)

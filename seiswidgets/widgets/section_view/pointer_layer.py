@@ -1,26 +1,15 @@
 """The layer on top of a pane that owns every event, and draws axes, lines, marks, mesh and cursors in the browser."""
 
 from collections.abc import Callable
-from pathlib import Path
 
 import anywidget
 from ipywidgets import CallbackDispatcher
 from traitlets import Dict, Float, List, Unicode
 
 from seiswidgets.interaction.messages import PointerMessage
+from seiswidgets.widgets.assets import asset
 
-LAYER = Path(__file__).parent / "layer"
-KEEP_KEYS = LAYER.parents[1] / "keep_keys.js"
-SCRIPTS = ("svg", "plane", "axes", "lines", "marks", "mesh", "cursors", "carry", "lanes", "hand", "keys", "layer")
 ANSWERED = ("drag", "hover", "wheel", "pinch")  # of these the browser sends none before the last is answered
-
-
-def joined(*scripts: Path) -> str:
-    """Scripts as one ES module: they share one scope, so that no build step is needed.
-
-    Style sheets are passed to anywidget as text too: a file that it reads itself keeps every widget alive for ever.
-    """
-    return "\n".join(script.read_text("utf-8") for script in scripts)
 
 
 class PointerLayer(anywidget.AnyWidget):
@@ -59,8 +48,8 @@ class PointerLayer(anywidget.AnyWidget):
         What a screen reader says of it.
     """
 
-    _esm = joined(KEEP_KEYS, *(LAYER / f"{name}.js" for name in SCRIPTS))
-    _css = joined(LAYER / "layer.css")
+    _esm = asset("pointer_layer.js")
+    _css = asset("pointer_layer.css")
 
     axes = Dict().tag(sync=True)
     window = List().tag(sync=True)

@@ -1,0 +1,54 @@
+// ipywidgets leaves some controls without an accessible name: slider handles, the buttons of Play, colour pickers, and
+// fields with a tooltip but no label. This gives each control in a box the name that a sighted user sees.
+
+const CONTROLS = ".noUi-handle, .widget-play button, input, select";
+
+/** @type {Record<string, string>} */
+const PLAY_BUTTONS = { "fa-play": "Play", "fa-pause": "Pause", "fa-stop": "Stop", "fa-retweet": "Repeat" };
+
+/** @typedef {HTMLElement & { type?: string, labels?: NodeListOf<HTMLLabelElement> | null }} Control */
+
+/** @param {Control} control */
+function accessibleName(control) {
+  if (control.type === "color") return "Colour"; // a colour picker cannot have a tooltip
+  const icon = [...(control.querySelector(".fa")?.classList ?? [])].find((name) => name in PLAY_BUTTONS);
+  const label = control.closest(".widget-inline-hbox")?.querySelector(".widget-label");
+  /** @type {HTMLElement | null} */
+  const withTooltip = control.closest("[title]");
+  return (icon && PLAY_BUTTONS[icon]) || label?.textContent?.trim() || withTooltip?.title;
+}
+
+/** @param {HTMLElement} box */
+function nameControls(box) {
+  for (const control of /** @type {NodeListOf<Control>} */ (box.querySelectorAll(CONTROLS))) {
+    const name = accessibleName(control);
+    const isLabelled = [...(control.labels ?? [])].some((label) => label.textContent?.trim());
+    if (name && !isLabelled) control.setAttribute("aria-label", name);
+  }
+}
+
+/** @type {import("@anywidget/types").Render} */
+function render({ el }) {
+  /** @type {HTMLElement | null} */
+  let box = null;
+  const observer = new MutationObserver((changes) => {
+    // SVG changes at every move of the pointer, and holds no controls.
+    if (box && changes.some(({ target }) => !(target instanceof SVGElement))) nameControls(box);
+  });
+  function start() {
+    box = el.parentElement;
+    if (box) {
+      nameControls(box);
+      observer.observe(box, { subtree: true, childList: true, attributeFilter: ["class", "title"] });
+    } else {
+      frame = requestAnimationFrame(start); // el is not in the page yet
+    }
+  }
+  let frame = requestAnimationFrame(start);
+  return () => {
+    cancelAnimationFrame(frame);
+    observer.disconnect();
+  };
+}
+
+export default { render };

@@ -1,0 +1,77 @@
+// The layer on top of a pane. It receives every event, draws all that does not need the kernel, and sends the kernel
+// only what it needs.
+
+import { GestureRecogniser } from "./pointer_layer/gestures.js";
+import { Keyboard } from "./pointer_layer/keyboard.js";
+import { createThrottles } from "./pointer_layer/throttle.js";
+import { LayerView, PARTS_BY_TRAIT } from "./pointer_layer/view.js";
+import { keepKeys } from "./shared/keep_keys.js";
+import { keepTraitsLocal } from "./shared/local_traits.js";
+
+/** @typedef {import("./pointer_layer/types.js").Traits} Traits */
+/** @typedef {import("./pointer_layer/types.js").Model} Model */
+
+/**
+ * Observe the model.
+ *
+ * @param {Model} model
+ * @param {LayerView} view
+ * @param {import("./pointer_layer/throttle.js").Throttles} throttles
+ * @returns {() => void} stops it
+ */
+function observe(model, view, throttles) {
+  /** @param {{ kind: string, to: keyof typeof throttles }} message */
+  const receive = ({ kind, to }) => kind === "answer" && throttles[to]?.answer();
+  /** @type {[string, (...args: any[]) => void][]} */
+  const handlers = [
+    ...Object.entries(PARTS_BY_TRAIT).map(
+      ([trait, parts]) => /** @type {[string, () => void]} */ ([`change:${trait}`, () => view.requestDraw(parts)]),
+    ),
+    ["change:chain", () => (view.maps = null)],
+    ["change:window", () => view.pointer && view.carryPointer()],
+    ["msg:custom", receive],
+  ];
+  for (const [name, handler] of handlers) model.on(name, handler);
+  return () => {
+    for (const [name, handler] of handlers) model.off(name, handler);
+  };
+}
+
+/** @type {import("@anywidget/types").Initialize<Traits>} */
+function initialize({ model }) {
+  keepTraitsLocal(model, ["carried", "linked"]);
+}
+
+/** @type {import("@anywidget/types").Render<Traits>} */
+function render({ model, el }) {
+  const view = new LayerView(model, el);
+  const { plot } = view.elements;
+  const controller = new AbortController();
+  const { signal } = controller;
+  /** @type {import("./pointer_layer/keyboard.js").Listen} */
+  const listen = (name, handle) => plot.addEventListener(name, handle, { signal, passive: false });
+  /** @type {import("./pointer_layer/gestures.js").Actions} */
+  const actions = {
+    send: (...message) => view.send(...message),
+    movePointer: (position) => view.movePointer(position),
+    scheduleRest: () => view.scheduleRest(),
+  };
+  const throttles = createThrottles(model);
+  const keyboard = new Keyboard(plot, model, actions.send);
+  keyboard.listenWith(listen);
+  new GestureRecogniser(plot, view.plotArea, keyboard, throttles, actions).listenWith(listen);
+  const stopObserving = observe(model, view, throttles);
+  const stopKeepingKeys = keepKeys(() => el.parentElement); // the canvases below the layer, too
+  const observer = new ResizeObserver(() => view.reportSize());
+  observer.observe(plot);
+  window.addEventListener("resize", () => view.reportSize(), { signal }); // the browser's own zoom
+  return () => {
+    controller.abort();
+    observer.disconnect();
+    clearTimeout(view.restTimer);
+    stopObserving();
+    stopKeepingKeys();
+  };
+}
+
+export default { initialize, render };

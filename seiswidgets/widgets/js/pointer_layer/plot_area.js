@@ -1,0 +1,80 @@
+// Coordinates in the plot area. The kernel may know another size of it than this view has: it sends and receives
+// positions in its own pixels.
+
+/** @typedef {import("./types.js").Pixel} Pixel */
+
+/** The plot area of one view, with conversions between section, css pixels and the kernel's pixels. */
+export class PlotArea {
+  /**
+   * @param {Pick<import("./types.js").Model, "get">} model
+   * @param {Element} plot
+   */
+  constructor(model, plot) {
+    this.model = model;
+    this.plot = plot;
+    this.width = 0;
+    this.height = 0;
+  }
+
+  /** Read the present size; false if the plot area is not shown. */
+  measure() {
+    const { width, height } = this.plot.getBoundingClientRect();
+    if (width < 1 || height < 1) return false;
+    [this.width, this.height] = [width, height];
+    return true;
+  }
+
+  get isReady() {
+    return this.width > 0 && this.model.get("window").length === 4;
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} z
+   * @returns {Pixel}
+   */
+  toPixels(x, z) {
+    const [left, right, top, bottom] = this.model.get("window");
+    return { x: ((x - left) / (right - left)) * this.width, y: ((z - top) / (bottom - top)) * this.height };
+  }
+
+  /**
+   * @param {Pixel} point
+   * @returns {import("./types.js").SectionPoint}
+   */
+  toSection(point) {
+    const [left, right, top, bottom] = this.model.get("window");
+    return { x: left + (point.x / this.width) * (right - left), z: top + (point.y / this.height) * (bottom - top) };
+  }
+
+  /** The kernel's pixels per css pixel, along x and along y. */
+  get kernelScale() {
+    const [width, height] = this.model.get("size");
+    return width && this.width ? { x: width / this.width, y: height / this.height } : { x: 1, y: 1 };
+  }
+
+  /**
+   * @param {Pixel} point
+   * @returns {Pixel}
+   */
+  toKernel(point) {
+    const scale = this.kernelScale;
+    return { x: point.x * scale.x, y: point.y * scale.y };
+  }
+
+  /** @param {Pixel} point */
+  contains(point) {
+    return point.x >= 0 && point.x <= this.width && point.y >= 0 && point.y <= this.height;
+  }
+
+  /**
+   * The position of a mouse or finger.
+   *
+   * @param {MouseEvent} event
+   * @returns {Pixel}
+   */
+  pointerPosition(event) {
+    const box = this.plot.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+}

@@ -1,0 +1,48 @@
+// The traits of PointerLayer in section_view/pointer_layer.py, as the browser receives them.
+
+import type { AnyModel } from "@anywidget/types";
+
+/** A point on the section, in its units. */
+export type SectionPoint = { x: number; z: number };
+
+/** A point in css pixels, from the upper left corner of the plot area. */
+export type Pixel = { x: number; y: number };
+
+export type Axis = { title: string; pixels: number[]; labels: string[] };
+export type Axes = { x: Axis; z: Axis; left: number; note: string };
+
+export type Stroke = {
+  points: ([number, number] | null)[];
+  colour: string;
+  width: number;
+  dots: boolean;
+  dash: number[];
+  label: string;
+  chosen: number | null;
+};
+
+export type Mark = { x: number; z: number; kind: "cutoff" | "held" | "cursor"; text: string; colour: string };
+
+export type Mesh = { vertices: DataView; edges: DataView };
+
+export type AffineMapState = { source: DataView; target: DataView; triangles: DataView; tolerance: number };
+
+export type Traits = {
+  axes: Partial<Axes>;
+  window: number[];
+  size: number[];
+  strokes: Stroke[];
+  marks: Mark[];
+  rubber: [number, number][];
+  mesh: Partial<Mesh>;
+  mesh_opacity: number;
+  chain: AffineMapState[];
+  carried: Partial<SectionPoint>;
+  linked: Partial<SectionPoint>;
+  hotkeys: string[];
+  label: string;
+};
+
+export type Model = AnyModel<Traits>;
+
+export type MessageKind = "press" | "drag" | "release" | "hover" | "leave" | "double" | "wheel" | "pinch" | "key";

@@ -1,0 +1,12 @@
+// Numbers from the bytes of a message.
+
+/**
+ * Copy the bytes, since they may start at an offset that the number type does not allow.
+ *
+ * @template {Float64Array | Uint32Array} Numbers
+ * @param {DataView} bytes
+ * @param {new (buffer: ArrayBufferLike) => Numbers} NumberType
+ */
+export function toNumbers(bytes, NumberType) {
+  return new NumberType(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+}
