@@ -9,7 +9,8 @@ from scipy.sparse import csr_array
 from shapely import LineString
 
 from seiswidgets.core.mesh import Mesh
-from seiswidgets.core.terms import MOVING, PaperTerm, coordinates, sparse_rows
+from seiswidgets.core.term import MOVING, PaperTerm
+from seiswidgets.core.terms import coordinates, sparse_rows
 
 STAY = 0.1  # of a segment's length
 CORNER = np.radians(10)  # a larger turn of a drawn line is a corner; a smaller one samples a smooth curve

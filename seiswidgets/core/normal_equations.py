@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from seiswidgets.core.cholesky import Cholesky
-from seiswidgets.core.terms import CONSTANT, MOVING, Layer, Term
+from seiswidgets.core.term import CONSTANT, MOVING, Layer, Term
 
 
 class Gram:

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from seiswidgets.core.solver import energy, update_contacts
-from seiswidgets.core.terms import Term
+from seiswidgets.core.term import Term
 
 TURN = 1e-4  # radians; accurate enough for a start
 

@@ -9,7 +9,7 @@ from scipy.sparse import csc_array, tril, vstack
 from seiswidgets.core.cholesky import Cholesky, Cholmod, NotPositiveDefinite, SuperLU
 from seiswidgets.core.mesh import triangle_areas
 from seiswidgets.core.normal_equations import NormalEquations
-from seiswidgets.core.terms import PaperTerm, Term
+from seiswidgets.core.term import PaperTerm, Term
 from seiswidgets.errors import Cancelled
 
 LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the median diagonal; the least only tames motions that cost nothing

@@ -10,7 +10,8 @@ import shapely
 from shapely import LineString
 
 from seiswidgets.core.mesh import Mesh, edge_keys
-from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue, Term
+from seiswidgets.core.term import Term
+from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.domain import RestorationDomain

@@ -1,4 +1,4 @@
-"""What an interpreter draws on a section: faults, horizons, and both together."""
+"""Picks of an interpreter on a section: faults, horizons, and both together."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence

@@ -8,7 +8,7 @@ import numpy as np
 
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.core.solver import Progress, Solution, fixed_point, gauss_newton
-from seiswidgets.core.terms import Term
+from seiswidgets.core.term import Term
 from seiswidgets.errors import FlippedError, Keyword, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.domain import RestorationDomain

@@ -26,6 +26,7 @@ from seiswidgets.geology.kinematics import (
     Survey,
     SurveyKeywords,
     check_range,
+    sign_change,
 )
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.geology.section import Section
@@ -218,15 +219,9 @@ def _synthetic(name: str, survey: Survey, depths: Depths, history: History) -> S
         Horizon(*(_piece(history, survey, faults, depth, side) for side in sides), name=f"H{index}")
         for index, depth in enumerate(depths, 1)
     ]
-    return Synthetic(
-        Section(_amplitude(rng, survey, history, trace), survey.dx, survey.dz, name=name),
-        Interpretation(faults, horizons),
-        trace,
-        _held(history, survey),
-        history.block,
-        history.to_unfaulted,
-        history.to_restored,
-    )
+    section = Section(_amplitude(rng, survey, history, trace), survey.dx, survey.dz, name=name)
+    answer = history.block, history.to_unfaulted, history.to_restored
+    return Synthetic(section, Interpretation(faults, horizons), trace, _held(history, survey), *answer)
 
 
 def _amplitude(rng: np.random.Generator, survey: Survey, history: History, trace: np.ndarray) -> np.ndarray:
@@ -288,7 +283,7 @@ def _piece(history: History, survey: Survey, faults: Sequence[Fault], depth: flo
     x = np.arange(-reach, survey.width + reach, 10.0)
     ends = np.flatnonzero(np.diff(margin(x) >= 0))
     if len(ends) == 2:
-        first, last = (_zero(margin, *x[end : end + 2]) for end in ends)
+        first, last = (sign_change(margin, *x[end : end + 2]) for end in ends)
         piece = survey.snap(bed(np.linspace(first, last, int((last - first) / SPACING) + 2)))
         meetings = [(fault, piece[0]) for fault in faults[max(side - 1, 0) : side]]
         meetings += [(fault, piece[-1]) for fault in faults[side : side + 1]]
@@ -299,15 +294,3 @@ def _piece(history: History, survey: Survey, faults: Sequence[Fault], depth: flo
         f"the horizon at {depth:g} m must have one piece in each block, from fault to fault inside the section, "
         f"but block {side} has none; choose another depth or a larger section, or deform it less"
     )
-
-
-def _zero(function: Callable[[np.ndarray], np.ndarray], low: float, high: float) -> float:
-    """The zero of a vectorised function that changes its sign once in an interval, to 1e-12 of the interval's length.
-
-    SciPy's optimizers take a quarter of a second to load, and every notebook would wait for it.
-    """
-    for _ in range(4):
-        x = np.linspace(low, high, 1001)
-        (first, *_) = np.flatnonzero(np.diff(function(x) >= 0))
-        low, high = x[first : first + 2]
-    return (low + high) / 2

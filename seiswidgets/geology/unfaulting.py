@@ -14,7 +14,8 @@ from seiswidgets.core.mesh import Cut, Mesh, edge_keys
 from seiswidgets.core.point_location import triangle_at
 from seiswidgets.core.rigid import nearest_rigid, rigid_blocks
 from seiswidgets.core.seams import weld_seams
-from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch, Term
+from seiswidgets.core.term import Term
+from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
