@@ -7,7 +7,7 @@ from timing import faster, in_turns
 
 import seiswidgets as sw
 from seiswidgets.core.mapping import PiecewiseAffineMap
-from seiswidgets.core.resampling import resampled
+from seiswidgets.core.resampling import resample
 
 NX, NZ = 1000, 600
 TARGETS = {1: 200, 3: 50}
@@ -24,7 +24,7 @@ def rows():
         return np.moveaxis(PiecewiseAffineMap(source, target, stage.mesh.triangles).inverse_on_grid(x, z), -1, 0)
 
     def ours(order):
-        return resampled(picture, *mapped(), order)
+        return resample(picture, *mapped(), order)
 
     def theirs(order):
         return warp(picture, PiecewiseAffineTransform.from_estimate(target, source), order=order)

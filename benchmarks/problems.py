@@ -48,11 +48,14 @@ def _problem(case, spacing, fixed):
         calls.append(call)
         return rigid_blocks(*call)
 
-    def caught(mesh, terms, start, free, spacing, *_):
-        raise Problem(mesh, terms, start, free, TOLERANCE * spacing, calls)
+    def caught(mesh, terms, start, free, domain, *_, **options):
+        raise Problem(mesh, terms, start, free, TOLERANCE * domain.spacing, calls)
 
     picks, start = case.interpretation, sw.Restoration(case.section, spacing=spacing)
-    changes = [(unfaulting, "rigid_blocks", recorded), (unfaulting, "solved", caught), (flattening, "solved", caught)]
+    changes = [
+        (unfaulting, "rigid_blocks", recorded),
+        *((module, "minimise", caught) for module in (unfaulting, flattening)),
+    ]
     with patch.object(*changes[0]), patch.object(*changes[1]), patch.object(*changes[2]):
         try:
             if picks.faults:

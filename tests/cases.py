@@ -76,10 +76,10 @@ class Slip:
             inner = points.copy()  # an end on the fault belongs to the side from which the line comes
             inner[[0, -1]] += 1e-6 * (points[[1, -2]] - points[[0, -1]])
             right = self.fault.side(inner) > 0
-            moved = (BlindSlip(self.fault, self.size, side).applied(inner) for side in (1, -1))
+            moved = (BlindSlip(self.fault, self.size, side).apply(inner) for side in (1, -1))
             return np.where(right[:, None], *moved)
         middle = points[len(points) // 2 - 1 : len(points) // 2 + 1].mean(axis=0, keepdims=True)
-        return self.motion.applied(points) if self.fault.side(middle)[0] > 0 else points
+        return self.motion.apply(points) if self.fault.side(middle)[0] > 0 else points
 
 
 def _mapped(line, function):
@@ -117,7 +117,7 @@ def _slipped(slips, beds):
     faults = []
     for slip in slips:
         line = slip.line()
-        faults, *beds = ([slip.applied(part) for part in _parted(lines, line)] for lines in (faults, *beds))
+        faults, *beds = ([slip.apply(part) for part in _parted(lines, line)] for lines in (faults, *beds))
         faults.append(line)
     faults, *beds = ([part.simplify(DRAWN) for line in lines for part in _clipped(line)] for lines in (faults, *beds))
     return faults, beds

@@ -1,1 +1,1 @@
-"""The restoration core: meshes, energies, solvers and maps, in metres of rock. It knows no geology and no Jupyter."""
+"""Restoration core: meshes, energies, solvers and maps, in metres of rock, without geology and without Jupyter."""

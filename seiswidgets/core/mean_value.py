@@ -6,7 +6,7 @@ from scipy.sparse import csr_array
 from seiswidgets.core.mesh import Mesh
 
 
-def mean_value_matrix(mesh: Mesh):
+def mean_value_matrix(mesh: Mesh) -> csr_array:
     """M of the paper's eq. 5: its rows give the neighbours' weighted mean minus the vertex itself.
 
     Rows belong to ``mesh.interior``, columns to all vertices; ``M @ mesh.vertices`` is 0. The weights are those of

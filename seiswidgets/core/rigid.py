@@ -1,26 +1,31 @@
-"""The rigid part of blocks' motion: the best there is, where a solver starts from, and a share of one that was."""
+"""Rigid motion of blocks: the best one to start a solver from, the nearest one to a deformation, and parts of one."""
+
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from seiswidgets.core.solver import energy, update_contacts
+from seiswidgets.core.term import Term
 
-TURN = 1e-4  # radians; a start need not be better
+TURN = 1e-4  # radians; accurate enough for a start
 
 
-def rigid_blocks(blocks, terms, start, free, max_iterations=30) -> np.ndarray:
-    """Positions after the rigid motion of each block that leaves the least energy in some terms.
+def rigid_blocks(
+    blocks: np.ndarray, terms: Sequence[Term], start: np.ndarray, free: np.ndarray, max_iterations: int = 30
+) -> np.ndarray:
+    """Move each block rigidly so that the energy of some terms is least.
 
-    Gauss-Newton again, with three unknowns a block: the same Jacobians, times each block's two shifts and its turn.
-    No triangle is deformed, so none can turn over; a fault that blocks have to turn along, as on a listric one,
-    is met before any of them bends.
+    Gauss-Newton with three unknowns per block: the same Jacobians, times each block's two shifts and its turn. No
+    triangle is deformed, so none can turn over; blocks that have to turn along their fault, as along a listric one,
+    do so before any of them bends.
 
     Parameters
     ----------
     blocks : array, shape (n,)
         Label of each vertex's block.
     terms : list of terms
-        Those between blocks: contact and stitches.
+        The terms between blocks: contact and stitches.
     start : array, shape (n, 2)
     free : array of bool, shape (n,)
         The vertices of the blocks that may move.
@@ -38,7 +43,10 @@ def rigid_blocks(blocks, terms, start, free, max_iterations=30) -> np.ndarray:
         slopes = np.vstack([(term.jacobian(vertices) @ modes).toarray() for term in terms])
         step = -np.linalg.lstsq(slopes, residual, rcond=1e-9)[0].reshape(-1, 3)
         before, share = energy(terms, vertices), 1.0
-        while energy(terms, moved := _moved(labels, vertices, centres, reach, share * step)) > before and share > 1e-3:
+        while (
+            energy(terms, moved := _move_blocks(labels, vertices, centres, reach, share * step)) > before
+            and share > 1e-3
+        ):
             share /= 2
         if share <= 1e-3:
             break
@@ -48,12 +56,12 @@ def rigid_blocks(blocks, terms, start, free, max_iterations=30) -> np.ndarray:
     return vertices
 
 
-def _modes(labels, vertices):
-    """Each block's shifts and its turn about its centre as columns; the turn in units of the size of the whole."""
+def _modes(labels: np.ndarray, vertices: np.ndarray) -> tuple[csr_array, np.ndarray, float]:
+    """Shifts of each block and its turn about its centre as columns, the centres, and the unit of the turns."""
     count, moving = labels.max() + 1, np.flatnonzero(labels >= 0)
     block = labels[moving]
-    number = np.maximum(np.bincount(block, minlength=count), 1)
-    centres = np.column_stack([np.bincount(block, vertices[moving, k], minlength=count) / number for k in (0, 1)])
+    size = np.maximum(np.bincount(block, minlength=count), 1)
+    centres = np.column_stack([np.bincount(block, vertices[moving, k], minlength=count) / size for k in (0, 1)])
     reach = np.ptp(vertices, axis=0).max()
     arm = (vertices[moving] - centres[block]) / reach
     ones = np.ones(len(moving))
@@ -63,7 +71,9 @@ def _modes(labels, vertices):
     return csr_array((data, (rows, columns)), shape=(vertices.size, 3 * count)), centres, reach
 
 
-def _moved(labels, vertices, centres, reach, step):
+def _move_blocks(
+    labels: np.ndarray, vertices: np.ndarray, centres: np.ndarray, reach: float, step: np.ndarray
+) -> np.ndarray:
     moving = labels >= 0
     block = labels[moving]
     angle = step[block, 2] / reach
@@ -76,12 +86,14 @@ def _moved(labels, vertices, centres, reach, step):
     return moved
 
 
-def part_of_motion(before, after, blocks, masses, share: float) -> np.ndarray:
-    """Positions at a share of the way from before to after, such that no block shrinks because it turns; shape (n, 2).
+def part_of_motion(
+    before: np.ndarray, after: np.ndarray, blocks: np.ndarray, masses: np.ndarray, share: float
+) -> np.ndarray:
+    """Positions after a share of a motion, such that no block shrinks because it turns; shape (n, 2).
 
     The rigid motion nearest to a block's own (Procrustes) is a turn about a pole; a share of it is a share of that turn
-    about the same pole, so a block that slides round a circular fault stays on it. What the block does beside that is
-    taken evenly.
+    about the same pole, so a block that slides around a circular fault stays on it. The rest of its deformation grows
+    linearly.
 
     Parameters
     ----------
@@ -89,22 +101,35 @@ def part_of_motion(before, after, blocks, masses, share: float) -> np.ndarray:
     blocks : array, shape (n,)
         Label of each vertex's block.
     masses : array, shape (n,)
-        How much each vertex counts.
+        Weight of each vertex.
     share : float
         From 0 to 1.
     """
     start, stop = (points @ [1, 1j] for points in (before, after))
     total = np.bincount(blocks, masses)
 
-    def mean(values):
-        return (np.bincount(blocks, masses * values.real) + 1j * np.bincount(blocks, masses * values.imag)) / total
+    def mean(values: np.ndarray) -> np.ndarray:
+        sums = np.bincount(blocks, masses * values.real) + 1j * np.bincount(blocks, masses * values.imag)
+        return np.asarray(sums / total)
 
     first, last = mean(start), mean(stop)
     start, stop = start - first[blocks], stop - last[blocks]
     angle = np.angle(mean(start.conj() * stop))
     shape = (1 - share) * start + share * np.exp(-1j * angle)[blocks] * stop
-    # (1 - exp(i share angle)) / (1 - exp(i angle)), the centre's share of its arc, in a form that bears an angle of 0
+    # (1 - exp(i share angle)) / (1 - exp(i angle)), the centre's share of its arc, in a form that is finite at angle 0
     along = share * np.sinc(share * angle / (2 * np.pi)) / np.sinc(angle / (2 * np.pi))
     centre = first + along * np.exp(0.5j * (share - 1) * angle) * (last - first)
-    places = centre[blocks] + np.exp(1j * share * angle)[blocks] * shape
-    return np.column_stack([places.real, places.imag])
+    points = centre[blocks] + np.exp(1j * share * angle)[blocks] * shape
+    return np.column_stack([points.real, points.imag])
+
+
+def nearest_rigid(rest: np.ndarray, moved: np.ndarray, masses: np.ndarray) -> np.ndarray:
+    """Move positions rigidly so that they lie nearest to where they were (Procrustes), shape (n, 2)."""
+    share = masses / masses.sum()
+    centre, centre_moved = share @ rest, share @ moved
+    a, b = moved - centre_moved, rest - centre
+    sine = share @ (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    cosine = share @ np.sum(a * b, axis=1)
+    length = np.hypot(sine, cosine)
+    turn = np.array([[cosine, sine], [-sine, cosine]]) / length
+    return np.asarray(a @ turn + centre)

@@ -1,13 +1,6 @@
-"""The energy's terms, each with its residual and the exact Jacobian of it.
+"""Terms of the energy, each with its residual and the exact Jacobian of it."""
 
-All terms take the positions of all vertices, shape (n, 2), in metres. ``residual`` gives a vector whose squared length
-is the term's energy; ``jacobian`` its derivative, a sparse matrix with columns x0, z0, x1, z1, ... A term multiplies
-its rows by its weight, as in the paper's eq. 14.
-
-The terms of the paper also give the rows and the lagged targets of its fixed point (eq. 16): ``rows`` is a sparse
-matrix over vertices, ``target(vertices)`` what ``rows @ vertices`` is pulled to.
-"""
-
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,16 +9,12 @@ from scipy.sparse import csr_array, eye_array, kron
 
 from seiswidgets.core.mean_value import mean_value_matrix
 from seiswidgets.core.mesh import Mesh, triangle_areas
-
-# How a term's Jacobian changes from one place to the next
-STEADY = "steady"  # the Jacobian's pattern never changes
-CONSTANT = "constant"  # nor do its numbers
-MOVING = "moving"  # the pattern follows the vertices
+from seiswidgets.core.term import CONSTANT, MOVING, STEADY, Layer, PaperTerm, Term
 
 
 @dataclass(frozen=True, eq=False)
-class MeanValue:
-    """Keeps each inner vertex at the same weighted mean of its neighbours (eq. 5, 6): keeps shapes."""
+class MeanValue(PaperTerm):
+    """Term that keeps shapes: each inner vertex stays the same weighted mean of its neighbours (eq. 5, 6)."""
 
     mesh: Mesh
     weight: float = 1.0
@@ -33,22 +22,22 @@ class MeanValue:
     pattern = CONSTANT
 
     @cached_property
-    def rows(self):
+    def rows(self) -> csr_array:
         return self.weight * mean_value_matrix(self.mesh)
 
-    def target(self, vertices):
+    def target(self, vertices: np.ndarray) -> np.ndarray:
         return np.zeros((self.rows.shape[0], 2))
 
-    def residual(self, vertices):
+    def residual(self, vertices: np.ndarray) -> np.ndarray:
         return (self.rows @ vertices).ravel()
 
-    def jacobian(self, vertices):
+    def jacobian(self, vertices: np.ndarray) -> csr_array:
         return kron(self.rows, eye_array(2), format="csr")
 
 
 @dataclass(frozen=True, eq=False)
-class ContourLaplacian:
-    """Keeps the bend of the contour at each of its vertices, turned with the contour (eq. 7, 8).
+class ContourLaplacian(PaperTerm):
+    """Term that keeps the bend of the contour at each of its vertices, turned with the contour (eq. 7, 8).
 
     The turn is the best rotation of the two contour edges (Procrustes in the plane); the paper's T_i is singular
     wherever the contour is straight.
@@ -60,38 +49,39 @@ class ContourLaplacian:
     pattern = STEADY
 
     @cached_property
-    def rows(self):
+    def rows(self) -> csr_array:
         before, vertex, after = self.mesh.contour.T
         columns, data = np.column_stack([before, vertex, after]), np.tile([-0.5, 1.0, -0.5], (len(vertex), 1))
         return sparse_rows(columns, self.weight * data, len(self.mesh.vertices))
 
     @cached_property
-    def _rest(self):
+    def _rest(self) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+        """Edges and bends at rest."""
         return self._arms(self.mesh.vertices), self.rows @ self.mesh.vertices
 
-    def _arms(self, vertices):
+    def _arms(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         before, vertex, after = self.mesh.contour.T
         return vertices[vertex] - vertices[before], vertices[after] - vertices[vertex]
 
-    def _turn(self, vertices):
-        """Cosine and sine of each turn, times a common length, and the edges at rest."""
+    def _turn(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Cosine and sine of each turn, times a common length."""
         rest, _ = self._rest
         arms = self._arms(vertices)
         cosine = sum(np.sum(a * b, axis=1) for a, b in zip(rest, arms, strict=True))
         sine = sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] for a, b in zip(rest, arms, strict=True))
         return cosine, sine
 
-    def target(self, vertices):
+    def target(self, vertices: np.ndarray) -> np.ndarray:
         _, bend = self._rest
         cosine, sine = self._turn(vertices)
         length = np.maximum(np.hypot(cosine, sine), np.finfo(float).tiny)
         cosine, sine = cosine / length, sine / length
         return np.column_stack([cosine * bend[:, 0] - sine * bend[:, 1], sine * bend[:, 0] + cosine * bend[:, 1]])
 
-    def residual(self, vertices):
+    def residual(self, vertices: np.ndarray) -> np.ndarray:
         return (self.rows @ vertices - self.target(vertices)).ravel()
 
-    def jacobian(self, vertices):
+    def jacobian(self, vertices: np.ndarray) -> csr_array:
         rest, _ = self._rest
         cosine, sine = self._turn(vertices)
         # the angle's derivative by an edge (x, z) whose rest is (a, b) is (cosine (-b, a) - sine (a, b)) / length^2
@@ -106,8 +96,8 @@ class ContourLaplacian:
 
 
 @dataclass(frozen=True, eq=False)
-class EdgeLength:
-    """Keeps the lengths of edges (eq. 9, with the edge vector that eq. 10 misses): keeps areas and bed lengths."""
+class EdgeLength(PaperTerm):
+    """Term that keeps the lengths of edges, and so areas and bed lengths (eq. 9, with the vector missing in eq. 10)."""
 
     rest: np.ndarray
     edges: np.ndarray
@@ -116,37 +106,31 @@ class EdgeLength:
     pattern = STEADY
 
     @cached_property
-    def _lengths(self):
+    def _lengths(self) -> np.ndarray:
         return self._vectors(self.rest)[1]
 
-    def _vectors(self, vertices):
+    def _vectors(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Unit vectors and lengths of the edges."""
         vectors = vertices.take(self.edges[:, 0], axis=0) - vertices.take(self.edges[:, 1], axis=0)
         lengths = np.sqrt(vectors[:, 0] ** 2 + vectors[:, 1] ** 2)
         return vectors / np.maximum(lengths, np.finfo(float).tiny)[:, None], lengths
 
     @cached_property
-    def rows(self):
+    def rows(self) -> csr_array:
         return sparse_rows(self.edges, np.tile([self.weight, -self.weight], (len(self.edges), 1)), len(self.rest))
 
-    def target(self, vertices):
+    def target(self, vertices: np.ndarray) -> np.ndarray:
         return self.weight * self._lengths[:, None] * self._vectors(vertices)[0]
 
-    def residual(self, vertices):
+    def residual(self, vertices: np.ndarray) -> np.ndarray:
         return self.weight * (self._vectors(vertices)[1] - self._lengths)
 
-    def jacobian(self, vertices):
+    def jacobian(self, vertices: np.ndarray) -> csr_array:
         unit, _ = self._vectors(vertices)
         return sparse_rows(coordinates(self.edges), self.weight * np.hstack([unit, -unit]), vertices.size)
 
-    def curvature(self, vertices):
-        """What the residual's second derivatives add: an edge resists turning as far as it is stretched.
-
-        Returns
-        -------
-        list of (data, factor)
-            Entries of rows with the Jacobian's pattern, and a factor for each row, such that the sum of factor times
-            row times row is the sum of residual times its Hessian.
-        """
+    def curvature(self, vertices: np.ndarray) -> Sequence[Layer]:
+        """Second derivatives, as in `Term`: a stretched edge resists turning."""
         unit, lengths = self._vectors(vertices)
         normal = unit[:, ::-1] * [-1, 1]
         factor = self.weight**2 * (1 - self._lengths / np.maximum(lengths, np.finfo(float).tiny))
@@ -154,8 +138,8 @@ class EdgeLength:
 
 
 @dataclass(frozen=True, eq=False)
-class Stitch:
-    """Brings pairs of vertices together: the two cut-offs of a horizon at a fault (eq. 18)."""
+class Stitch(PaperTerm):
+    """Term that brings pairs of vertices together: the two cut-offs of a horizon at a fault (eq. 18)."""
 
     pairs: np.ndarray
     count: int
@@ -164,22 +148,22 @@ class Stitch:
     pattern = CONSTANT
 
     @cached_property
-    def rows(self):
+    def rows(self) -> csr_array:
         return sparse_rows(self.pairs, np.tile([self.weight, -self.weight], (len(self.pairs), 1)), self.count)
 
-    def target(self, vertices):
+    def target(self, vertices: np.ndarray) -> np.ndarray:
         return np.zeros((len(self.pairs), 2))
 
-    def residual(self, vertices):
+    def residual(self, vertices: np.ndarray) -> np.ndarray:
         return (self.rows @ vertices).ravel()
 
-    def jacobian(self, vertices):
+    def jacobian(self, vertices: np.ndarray) -> csr_array:
         return kron(self.rows, eye_array(2), format="csr")
 
 
 @dataclass(frozen=True, eq=False)
-class Level:
-    """Brings vertices to a level z (eq. 20). The paper's target for x, where x is now, would only drag: left out."""
+class Level(PaperTerm):
+    """Term that brings vertices to a level z (eq. 20). The paper's target for x, its present value, would only drag."""
 
     vertices: np.ndarray
     datum: float
@@ -189,25 +173,25 @@ class Level:
     pattern = CONSTANT
 
     @cached_property
-    def rows(self):
+    def rows(self) -> csr_array:
         return sparse_rows(self.vertices[:, None], np.full((len(self.vertices), 1), self.weight), self.count)
 
-    def target(self, vertices):
+    def target(self, vertices: np.ndarray) -> np.ndarray:
         return self.weight * np.column_stack([vertices[self.vertices, 0], np.full(len(self.vertices), self.datum)])
 
-    def residual(self, vertices):
+    def residual(self, vertices: np.ndarray) -> np.ndarray:
         return self.weight * (vertices[self.vertices, 1] - self.datum)
 
-    def jacobian(self, vertices):
+    def jacobian(self, vertices: np.ndarray) -> csr_array:
         data = np.full((len(self.vertices), 1), self.weight)
         return sparse_rows(2 * self.vertices[:, None] + 1, data, 2 * self.count)
 
 
 @dataclass(frozen=True, eq=False)
-class AreaBarrier:
-    """Keeps triangles from turning over; silent while they keep more than a share ``onset`` of their area.
+class AreaBarrier(Term):
+    """Term that keeps triangles from turning over; zero while they keep more than a share ``onset`` of their area.
 
-    The residual is 1/s - 1/onset, times the triangle's size, where s is the area now over the area at rest.
+    The residual is 1/s - 1/onset, times the root of the area at rest, where s is the area now over the area at rest.
     """
 
     mesh: Mesh
@@ -215,20 +199,17 @@ class AreaBarrier:
     name = "area barrier"
     pattern = MOVING
 
-    def at(self, vertices) -> "AreaBarrier":
-        """The same term: which triangles it holds follows from the vertices alone."""
-        return self
-
-    def _pressed(self, vertices):
+    def _pressed(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Corners, areas at rest and shares of the triangles that are smaller than the onset."""
         share = triangle_areas(vertices, self.mesh.triangles) / self.mesh.areas
         pressed = np.flatnonzero(share < self.onset)
         return self.mesh.triangles[pressed], self.mesh.areas[pressed], share[pressed]
 
-    def residual(self, vertices):
+    def residual(self, vertices: np.ndarray) -> np.ndarray:
         _, areas, share = self._pressed(vertices)
         return np.sqrt(areas) * (1 / share - 1 / self.onset)
 
-    def jacobian(self, vertices):
+    def jacobian(self, vertices: np.ndarray) -> csr_array:
         triangles, areas, share = self._pressed(vertices)
         corners = vertices[triangles]
         opposite = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]
@@ -236,11 +217,11 @@ class AreaBarrier:
         data = -(areas**-0.5 / share**2)[:, None] * by_corner.reshape(-1, 6)
         return sparse_rows(coordinates(triangles), data, vertices.size)
 
-    def curvature(self, vertices):
-        """What the residual's second derivatives add, as for ``EdgeLength``.
+    def curvature(self, vertices: np.ndarray) -> Sequence[Layer]:
+        """Second derivatives, as in `Term`.
 
-        The residual bends as 1/s does, and the area s itself is a quadratic form of the corners, the same for all
-        triangles: it is taken along its four principal directions.
+        The residual bends as 1/s does, and the area s is a quadratic form of the corners, the same for all triangles;
+        it is split into its four principal directions.
         """
         _, areas, share = self._pressed(vertices)
         residual = self.residual(vertices)
@@ -249,7 +230,7 @@ class AreaBarrier:
         return [(self.jacobian(vertices).data, 2 * residual * share / np.sqrt(areas)), *rows]
 
 
-def _area_modes():
+def _area_modes() -> tuple[np.ndarray, np.ndarray]:
     """Principal curvatures of a triangle's area over its corners' coordinates, and their directions in rows."""
     hessian = np.zeros((6, 6))
     for corner in range(3):
@@ -257,20 +238,20 @@ def _area_modes():
         hessian[2 * corner, 2 * after + 1] = 0.5
         hessian[2 * after, 2 * corner + 1] = -0.5
     sizes, directions = np.linalg.eigh(hessian + hessian.T)
-    curved = np.abs(sizes) > 0.1  # a shift of the whole triangle is no curvature
+    curved = np.abs(sizes) > 0.1  # a shift of the whole triangle has none
     return sizes[curved], directions.T[curved]
 
 
 AREA_MODES = _area_modes()
 
 
-def coordinates(vertices):
+def coordinates(vertices: np.ndarray) -> np.ndarray:
     """Columns of the x and z of each vertex, side by side: shape (r, k) to (r, 2 k)."""
-    return (2 * vertices[..., None] + [0, 1]).reshape(len(vertices), 2 * vertices.shape[1])
+    return np.asarray((2 * vertices[..., None] + [0, 1]).reshape(len(vertices), 2 * vertices.shape[1]))
 
 
-def sparse_rows(columns, data, width):
-    """A sparse matrix whose rows all have the same number of entries, given row by row."""
+def sparse_rows(columns: np.ndarray, data: np.ndarray, width: int) -> csr_array:
+    """Sparse matrix whose rows all have the same number of entries, given row by row."""
     pointers = np.arange(len(columns) + 1) * columns.shape[1]
     return csr_array(
         (np.ascontiguousarray(data, float).ravel(), columns.ravel(), pointers), shape=(len(columns), width)

@@ -1,4 +1,4 @@
-"""What the numbers mean: sections, picks, and the stages of a restoration, in metres of rock."""
+"""Sections, picks, and the stages of a restoration; lengths are in metres of rock inside."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""How alike the two sides of a fault are: whether a restoration has put together what belongs together."""
+"""Similarity of the two sides of a fault: a check that a restoration has put together what belongs together."""
 
 import warnings
 
@@ -6,20 +6,20 @@ import numpy as np
 import shapely
 from scipy.ndimage import map_coordinates
 
-from seiswidgets.errors import PickError
+from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.picks import Fault
 from seiswidgets.geology.restoration import Restoration
 
-BESIDE = 0.1  # traces: how far beside a fault its two sides are told apart
+BESIDE = 0.1  # traces beside a fault at which its two sides are distinguished
 LEAST_SAMPLES = 8
 
 
 def cross_fault_correlation(restoration: Restoration, fault: Fault, gap: int = 2, width: int = 4) -> float:
     """Normalised cross-correlation of the strips on both sides of a fault, from -1 to 1.
 
-    The strips follow the fault as it lies in the restored section. Each place on it has a left and a right side; these
-    were elsewhere in the section of today, and there the amplitudes beside the fault are read, so that only the slip
-    counts and not how the rock is bent next to it. Without any stage this is the cross_fault_correlation today.
+    The strips follow the fault as it lies in the restored section. Each point on it has a left and a right side; the
+    amplitudes beside the fault are read where these two lie in the present-day section, so that only the slip counts
+    and not how the rock is bent next to it. Without any stage this is the present-day correlation.
 
     Parameters
     ----------
@@ -34,13 +34,18 @@ def cross_fault_correlation(restoration: Restoration, fault: Fault, gap: int = 2
         If the strips have fewer than eight samples with data on both sides.
     """
     section = restoration.original
-    along = _samples_along(np.concatenate(restoration.carried(fault)), section.dz / 2)
+    along = _sample_points(np.concatenate(restoration.carried(fault)), section.dz / 2)
     left, right = (_strip(restoration, along, side, gap, width) for side in (-1, 1))
     both = np.isfinite(left) & np.isfinite(right)
     if both.sum() < LEAST_SAMPLES:
         raise PickError(
             f"only {both.sum()} samples beside fault {fault.name!r} have data on both sides; at least {LEAST_SAMPLES} "
-            "are needed to compare them: take a smaller gap or width, or a longer fault"
+            "are needed to compare them: reduce ",
+            Keyword("gap"),
+            " or ",
+            Keyword("width"),
+            ", or choose a longer fault",
+            pick=fault.name,
         )
     left, right = left[both] - left[both].mean(), right[both] - right[both].mean()
     return float(left @ right / max(np.sqrt((left @ left) * (right @ right)), np.finfo(float).tiny))
@@ -52,18 +57,18 @@ def likeness(restoration: Restoration, fault: Fault, gap: int = 2, width: int = 
     return cross_fault_correlation(restoration, fault, gap, width)
 
 
-def _samples_along(line, step):
-    """Places along a line, a step in z apart."""
-    line = shapely.LineString(line[np.argsort(line[:, 1], kind="stable")])
+def _sample_points(points: np.ndarray, step: float) -> np.ndarray:
+    """Points along a line, about a step in z apart, shape (k, 2)."""
+    line = shapely.LineString(points[np.argsort(points[:, 1], kind="stable")])
     count = max(2, int(np.ptp(shapely.get_coordinates(line)[:, 1]) / step))
     return shapely.get_coordinates(line.interpolate(np.linspace(0, 1, count), normalized=True))
 
 
-def _strip(restoration, along, side, gap, width):
-    """Amplitudes of today beside the places that are now on one side of a fault, shape (k, width)."""
+def _strip(restoration: Restoration, along: np.ndarray, side: int, gap: int, width: int) -> np.ndarray:
+    """Present-day amplitudes beside the points that are now on one side of a fault, shape (k, width)."""
     section = restoration.original
-    places = restoration.to_original(along + [side * BESIDE * section.dx, 0])
+    points = restoration.to_original(along + [side * BESIDE * section.dx, 0])
     steps = side * (gap + np.arange(width))
-    columns = (places[:, :1] - section.x0) / section.dx + steps
-    rows = np.broadcast_to((places[:, 1:] - section.z0) / section.dz, columns.shape)
-    return map_coordinates(section.amplitude, [rows, columns], order=1, cval=np.nan)
+    columns = (points[:, :1] - section.x0) / section.dx + steps
+    rows = np.broadcast_to((points[:, 1:] - section.z0) / section.dz, columns.shape)
+    return np.asarray(map_coordinates(section.amplitude, [rows, columns], order=1, cval=np.nan))

@@ -1,10 +1,12 @@
-"""What a stage starts from: the outline of the rock, the mesh that will fill it, and the words for a place in it."""
+"""The rock that a stage starts from: its outline, the mesh that fills it, and positions in the user's units."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from shapely import LineString
+from numpy.typing import ArrayLike
+from shapely import LineString, MultiPolygon, Polygon
 
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.triangulation import DENSITY, expected_vertices, triangulate, triangulate_to
@@ -22,69 +24,71 @@ class RestorationDomain:
     ----------
     outline : shapely Polygon or MultiPolygon
     section : Section
-        As it is today, for its units.
-    asked : float or None
-        The mesh spacing that the user asked for.
+        The present-day section, for its units.
+    requested_spacing : float or None
+        Mesh spacing requested by the user.
     quick : bool
-        Whether lines may lose what is small beside the mesh spacing, for a quick look.
+        True if lines may lose details that are small beside the mesh spacing, for a preview.
     """
 
-    outline: object
+    outline: Polygon | MultiPolygon
     section: Section
-    asked: float | None
+    requested_spacing: float | None
     quick: bool = False
 
-    def __post_init__(self):
-        if self.asked:
-            expected_vertices(self.outline, self.asked)
+    def __post_init__(self) -> None:
+        if self.requested_spacing:
+            expected_vertices(self.outline, self.requested_spacing)
 
     @cached_property
     def spacing(self) -> float:
         """Typical length of the mesh's edges, in metres."""
-        return self.asked or float(np.sqrt(self.outline.area * DENSITY / VERTICES))
+        return self.requested_spacing or float(np.sqrt(self.outline.area * DENSITY / VERTICES))
 
     @property
     def slack(self) -> float:
-        """What counts as met: a tenth of a sample, in metres."""
-        return 0.1 * self.section.dz * self.section.metres[1]
+        """Largest misfit that counts as met: a tenth of a sample, in metres."""
+        return float(0.1 * self.section.dz * self.section.metres[1])
 
     @property
     def tolerance(self) -> float:
-        """How far a simplified line may lie from itself: a tenth of a sample at most, but for a quick look; metres."""
+        """Largest distance of a simplified line from the original, in metres; in previews it may exceed the slack."""
         return SIMPLIFIED * self.spacing if self.quick else min(self.slack, SIMPLIFIED * self.spacing)
 
-    def simplified(self, line: LineString) -> LineString:
-        """A line without the points that a mesh has no need of."""
+    def simplify(self, line: LineString) -> LineString:
+        """Remove the points of a line that a mesh does not need."""
         return line.simplify(self.tolerance)
 
-    def mesh(self, lines) -> Mesh:
-        """A mesh of the outline that has all lines among its edges."""
-        if self.asked:
-            return triangulate(self.outline, lines, self.asked)
+    def mesh(self, lines: Sequence[LineString]) -> Mesh:
+        """Triangulate the outline with all lines among the edges."""
+        if self.requested_spacing:
+            return triangulate(self.outline, lines, self.requested_spacing)
         return triangulate_to(self.outline, lines, VERTICES)
 
-    def fingerprint(self, *drawn: dict) -> tuple:
-        """What shapes a stage's mesh, for comparison: two stages with equal tasks have the same mesh.
+    def fingerprint(self, *drawn: Mapping[str, Sequence[LineString]]) -> tuple:
+        """Everything that shapes a stage's mesh: two stages with equal fingerprints have the same mesh.
 
         Parameters
         ----------
         *drawn : dict of str to list of LineString
-            Faults by name, horizons by name: as many of these as the stage has use for.
+            Faults by name, horizons by name; only those that the stage uses.
         """
-        lines = tuple(tuple((name, *(line.wkb for line in pieces)) for name, pieces in kind.items()) for kind in drawn)
-        return self.outline.wkb, self.asked, self.tolerance, lines
+        lines = tuple(
+            tuple((name, *(line.wkb for line in pieces)) for name, pieces in picks.items()) for picks in drawn
+        )
+        return self.outline.wkb, self.requested_spacing, self.tolerance, lines
 
     def length(self, metres: float) -> str:
-        """A length in the words of the section: in its unit of x, also where z is a time."""
-        shown = float(f"{metres / self.section.metres[0]:.2g}")
-        return f"{shown:.6g} {self.section.x_unit}{' of rock' if self.section.is_time else ''}"
+        """Text for a length, in the section's unit of x, also where z is a time."""
+        rounded = float(f"{metres / self.section.metres[0]:.2g}")
+        return f"{rounded:.6g} {self.section.x_unit}{' of rock' if self.section.is_time else ''}"
 
-    def position(self, point) -> tuple[float, float]:
-        """A point in metres of rock, in the section's units."""
+    def position(self, point: ArrayLike) -> tuple[float, float]:
+        """A point given in metres of rock, in the section's units."""
         x, z = self.section.from_rock(point)
         return float(x), float(z)
 
-    def where(self, point) -> str:
-        """A place in the words of the section: with its units."""
+    def where(self, point: ArrayLike) -> str:
+        """Text for the position of a point given in metres of rock, with the section's units."""
         x, z = self.position(point)
         return f"x={x:.6g} {self.section.x_unit}, z={z:.6g} {self.section.z_unit}"

@@ -1,4 +1,6 @@
-"""Faults that end inside the section: genuine tips, and faults that were not drawn on to what they reach."""
+"""Faults that end inside the section: genuine tips, and faults that were not drawn up to what they reach."""
+
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import shapely
@@ -6,17 +8,20 @@ from shapely import LineString, Point
 
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.section import Section
 
 NEAR = 0.05  # of the section's height
 BENDS = "the rock there must bend instead of slip"
 
 
-def fault_end_findings(faults: dict[str, LineString], slips: dict, domain: RestorationDomain) -> list[Finding]:
+def fault_end_findings(
+    faults: Mapping[str, LineString], slips: Mapping[str, np.ndarray], domain: RestorationDomain
+) -> list[Finding]:
     """A finding for each end of a fault that lies inside the section, off all other faults.
 
     It is a warning if the border, or another fault straight ahead, lies nearer than 5% of the section's height, or
-    nearer than the slip at the fault's nearest cut-offs, which would have to die out on so short a way. Elsewhere it is
-    a note: faults may die out inside a section.
+    nearer than the slip at the fault's nearest cut-offs, which would have to die out over so short a distance.
+    Elsewhere it is a note: faults may die out inside a section.
 
     Parameters
     ----------
@@ -26,58 +31,63 @@ def fault_end_findings(faults: dict[str, LineString], slips: dict, domain: Resto
         For each fault the points between its pairs of cut-offs, and the distance of each pair, in metres.
     domain : RestorationDomain
     """
-    found = []
+    findings = []
     for name, line in faults.items():
         others = {other: drawn for other, drawn in faults.items() if other != name}
         for points in (shapely.get_coordinates(line), shapely.get_coordinates(line)[::-1]):
             if _is_inside(Point(points[0]), domain, others.values(), 1e-6 * line.length):
-                found.append(_finding(name, points, others, _nearness(points[0], slips[name], domain), domain))
-    return found
+                near = _near_distance(points[0], slips[name], domain)
+                findings.append(_finding(name, points, others, near, domain))
+    return findings
 
 
-def _is_inside(tip, domain, others, touch):
+def _is_inside(tip: Point, domain: RestorationDomain, others: Iterable[LineString], touch: float) -> bool:
     lines = [domain.outline.boundary, *others]
     return domain.outline.contains(tip) and min(other.distance(tip) for other in lines) > touch
 
 
-def _nearness(tip, slips, domain):
+def _near_distance(tip: np.ndarray, slips: np.ndarray, domain: RestorationDomain) -> float:
     """The distance within which an end counts as near, in metres."""
     _, low, _, high = domain.outline.bounds
     nearest = np.argmin(np.hypot(*(slips[:, :2] - tip).T))
-    return max(NEAR * (high - low), slips[nearest, 2])
+    return float(max(NEAR * (high - low), slips[nearest, 2]))
 
 
-def _finding(name, points, others, near, domain):
+def _finding(
+    name: str, points: np.ndarray, others: Mapping[str, LineString], near: float, domain: RestorationDomain
+) -> Finding:
     tip, where = Point(points[0]), domain.position(points[0])
-    text = _at_other_fault(name, points, others, near, domain)
+    text = _text_at_other_fault(name, points, others, near, domain)
     if text is None:
         border = domain.outline.boundary.interpolate(domain.outline.boundary.project(tip))
-        way = _way_to(np.subtract(border.coords[0], points[0]), domain.section)
+        distance = _distance_to_border(np.subtract(border.coords[0], points[0]), domain.section)
         if tip.distance(border) > near:
-            return Finding("note", "fault end", f"{name} dies out inside the section, {way}.", name, where)
-        text = f"{name} dies out {way} of the section; {BENDS}. Draw it on to the border if it reaches it."
+            return Finding("note", "fault end", f"{name} dies out inside the section, {distance}.", name, where)
+        text = f"{name} dies out {distance} of the section; {BENDS}. Extend it to the border if it reaches it."
     return Finding("warning", "fault end", text, name, where)
 
 
-def _way_to(arm, section):
-    """How far an end lies from the border, and from which one, in the section's units."""
+def _distance_to_border(arm: np.ndarray, section: Section) -> str:
+    """Text for the distance of an end from the nearest border, in the section's units."""
     x, z = np.abs(section.from_rock(arm))
     if abs(arm[1]) >= abs(arm[0]):
         return f"{z:.3g} {section.z_unit} {'below the top' if arm[1] < 0 else 'above the bottom'}"
     return f"{x:.3g} {section.x_unit} from the {'left' if arm[0] < 0 else 'right'} border"
 
 
-def _at_other_fault(name, points, others, near, domain):
-    """What there is to say of an end that lies a little short of another fault, or a little beyond it."""
+def _text_at_other_fault(
+    name: str, points: np.ndarray, others: Mapping[str, LineString], near: float, domain: RestorationDomain
+) -> str | None:
+    """Text about an end that lies a little short of another fault, or a little beyond it; None if it does not."""
     tip, arm = Point(points[0]), points[0] - points[1]
     ahead = LineString([points[0], points[0] + near * arm / np.hypot(*arm)])
     for line, relation, advice in (
-        (ahead, "short of", "draw it on to {0} if it reaches it"),
+        (ahead, "short of", "extend it to {0} if it reaches it"),
         (LineString(points), "beyond", "end it at {0} if it does not cut it"),
     ):
-        met = [(line.intersection(other), fault) for fault, other in others.items() if line.intersects(other)]
-        distance, fault = min(((tip.distance(point), fault) for point, fault in met), default=(np.inf, None))
+        hits = [(line.intersection(other), fault) for fault, other in others.items() if line.intersects(other)]
+        distance, fault = min(((tip.distance(point), fault) for point, fault in hits), default=(np.inf, ""))
         if distance <= near:
-            place = f"near {domain.where(points[0])}"
-            return f"{name} ends {domain.length(distance)} {relation} {fault} {place}; {BENDS}: {advice.format(fault)}."
+            where = f"near {domain.where(points[0])}"
+            return f"{name} ends {domain.length(distance)} {relation} {fault} {where}; {BENDS}: {advice.format(fault)}."
     return None

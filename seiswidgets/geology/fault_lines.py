@@ -1,11 +1,14 @@
 """Faults as lines that a mesh can be cut along: tidied, joined to what they reach, and checked against each other."""
 
+from collections.abc import Iterable, Mapping, Sequence
+
 import numpy as np
 import shapely
 from shapely import LineString, Point
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import substring
 
-from seiswidgets.errors import PickError
+from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.domain import RestorationDomain
 
 MERGED = 0.01  # of the mesh spacing: points closer than this become one
@@ -14,9 +17,11 @@ CLOSE = 0.05  # of the mesh spacing: a drawn point so close to a cut-off, a cros
 EDGES = 8  # at least, along each fault
 SHARPEST = np.radians(10)  # between two stretches of a fault: less makes slivers of rock
 
+Position = tuple[float, float]
 
-def merged(points, spacing) -> np.ndarray:
-    """A polyline without the points that follow closer than a hundredth of the spacing on the one before."""
+
+def merge_close_points(points: np.ndarray, spacing: float) -> np.ndarray:
+    """Remove the points of a polyline that lie within a hundredth of the spacing of the one before."""
     kept = [points[0]]
     for point in points[1:]:
         if np.hypot(*(point - kept[-1])) > MERGED * spacing:
@@ -26,8 +31,8 @@ def merged(points, spacing) -> np.ndarray:
     return np.array(kept)
 
 
-def fault_lines(faults: dict, domain: RestorationDomain) -> dict:
-    """Faults as they are to be cut: without repeated points, meeting what they nearly meet.
+def fault_lines(faults: Mapping[str, np.ndarray], domain: RestorationDomain) -> dict[str, LineString]:
+    """Faults ready to be cut: without repeated points, and meeting what they nearly meet.
 
     Parameters
     ----------
@@ -42,70 +47,83 @@ def fault_lines(faults: dict, domain: RestorationDomain) -> dict:
     """
     lines = {name: _line(name, points, domain) for name, points in faults.items()}
     _check_apart(lines, domain)
-    met = {}
+    extended: dict[str, LineString] = {}
     for name, line in lines.items():
-        others = [met.get(other, lines[other]) for other in lines if other != name]
-        met[name] = _meeting(line, [domain.outline.boundary, *others], REACH * domain.spacing)
-    return met
+        others = [extended.get(other, lines[other]) for other in lines if other != name]
+        extended[name] = _fit_ends(line, [domain.outline.boundary, *others], REACH * domain.spacing)
+    return extended
 
 
-def _line(name, points, domain):
-    points = merged(points, domain.spacing)
+def _line(name: str, points: np.ndarray, domain: RestorationDomain) -> LineString:
+    points = merge_close_points(points, domain.spacing)
     length = np.hypot(*np.diff(points, axis=0).T).sum() if len(points) > 1 else 0.0
     if length <= domain.spacing:
         raise PickError(
             f"fault {name!r} near {domain.where(points[0])} is {length:.4g} m long, no longer than the mesh spacing of "
-            f"{domain.spacing:.4g} m; choose a finer spacing, or leave it out"
+            f"{domain.spacing:.4g} m; reduce ",
+            Keyword("spacing"),
+            ", or leave the fault out",
+            pick=name,
+            where=domain.position(points[0]),
         )
     _check_onward(name, points, domain)
-    return domain.simplified(LineString(points)) if domain.quick else LineString(points)
+    return domain.simplify(LineString(points)) if domain.quick else LineString(points)
 
 
-def _check_onward(name, points, domain):
+def _check_onward(name: str, points: np.ndarray, domain: RestorationDomain) -> None:
     steps = np.diff(points, axis=0)
     directions = steps / np.hypot(*steps.T)[:, None]
     back = np.sum(directions[1:] * directions[:-1], axis=1) < -np.cos(SHARPEST)
     if back.any():
-        place = domain.where(points[1 + np.argmax(back)])
-        raise PickError(f"fault {name!r} turns back on itself near {place}; leave that point out")
+        point = points[1 + np.argmax(back)]
+        raise PickError(
+            f"fault {name!r} turns back on itself near {domain.where(point)}; leave that point out",
+            pick=name,
+            where=domain.position(point),
+        )
 
 
-def _check_apart(lines, domain):
+def _check_apart(lines: Mapping[str, LineString], domain: RestorationDomain) -> None:
     names = list(lines)
-    for number, name in enumerate(names):
-        for other in names[:number]:
+    for index, name in enumerate(names):
+        for other in names[:index]:
             shared = lines[name].intersection(lines[other].buffer(0.05 * domain.spacing))
             if shared.length > domain.spacing:
+                point = shared.centroid.coords[0]
                 raise PickError(
-                    f"faults {other!r} and {name!r} lie on top of each other near "
-                    f"{domain.where(shared.centroid.coords[0])}, for {shared.length:.4g} m; keep one, or part them"
+                    f"faults {other!r} and {name!r} lie on top of each other near {domain.where(point)}, for "
+                    f"{shared.length:.4g} m; keep one, or move them apart",
+                    pick=name,
+                    where=domain.position(point),
                 )
 
 
-def _meeting(line, others, reach):
-    """A fault whose ends are drawn on to, or cut back to, a line that they nearly meet."""
+def _fit_ends(line: LineString, others: Sequence[BaseGeometry], reach: float) -> LineString:
+    """Extend the ends of a fault to a line that they nearly meet, or cut them back to it."""
     start, stop = 0.0, line.length
-    for crossing in (point for other in others for point in _crossings(line, other)):
-        way = line.project(crossing)
-        if 0 < way < reach:
-            start = max(start, way)
-        elif 0 < line.length - way < reach:
-            stop = min(stop, way)
+    for crossing in (point for other in others for point in _common_points(line, other)):
+        arc_length = line.project(crossing)
+        if 0 < arc_length < reach:
+            start = max(start, arc_length)
+        elif 0 < line.length - arc_length < reach:
+            stop = min(stop, arc_length)
     points = shapely.get_coordinates(substring(line, start, stop))
-    for place, cut in ((0, start > 0), (-1, stop < line.length)):
-        near = [other.interpolate(other.project(Point(points[place]))) for other in others]
-        distance, target = min((Point(points[place]).distance(point), point.coords[0]) for point in near)
+    for which, cut in ((0, start > 0), (-1, stop < line.length)):
+        near = [other.interpolate(other.project(Point(points[which]))) for other in others]
+        distance, target = min((Point(points[which]).distance(point), point.coords[0]) for point in near)
         if not cut and 0 < distance < reach:
-            points = np.insert(points, 0 if place == 0 else len(points), target, axis=0)
+            points = np.insert(points, 0 if which == 0 else len(points), target, axis=0)
     return LineString(points)
 
 
-def _crossings(line, other):
+def _common_points(line: LineString, other: BaseGeometry) -> list[Point]:
     return [part.centroid for part in shapely.get_parts(line.intersection(other)) if not part.is_empty]
 
 
-def passing_through(line: LineString, cutoffs, crossings, reach: float) -> LineString:
-    """A fault that passes through its cut-offs and crossings instead of through drawn points close to them.
+def route_through(
+    line: LineString, cutoffs: Iterable[Position], crossings: Iterable[Position], reach: float
+) -> LineString:
+    """Make a fault pass through its cut-offs and crossings instead of through drawn points close to them.
 
     Two points of a fault that lie much closer than the mesh spacing make slivers, which hold a whole block.
 
@@ -115,40 +133,41 @@ def passing_through(line: LineString, cutoffs, crossings, reach: float) -> LineS
     cutoffs, crossings : lists of points on it
         Crossings are where other faults cross it, or end.
     reach : float
-        How close is close.
+        Distance within which a drawn point is replaced.
     """
     points = shapely.get_coordinates(line)
-    places = np.array([points[0], points[-1], *cutoffs, *crossings], float).reshape(-1, 2)
-    apart = np.hypot(*np.moveaxis(points[:, None] - places, -1, 0))
-    close = apart.min(axis=1) < reach
+    targets = np.array([points[0], points[-1], *cutoffs, *crossings], float).reshape(-1, 2)
+    distances = np.hypot(*np.moveaxis(points[:, None] - targets, -1, 0))
+    close = distances.min(axis=1) < reach
     close[[0, -1]] = False
     if not close.any():
         return line
-    points[close] = places[apart[close].argmin(axis=1)]
+    points[close] = targets[distances[close].argmin(axis=1)]
     new = np.append(True, (points[1:] != points[:-1]).any(axis=1))
-    return with_points(LineString(points[new]), crossings)
+    return insert_points(LineString(points[new]), crossings)
 
 
-def crossings(name: str, lines: dict) -> list:
+def fault_crossings(name: str, lines: Mapping[str, LineString]) -> list[Position]:
     """The points where other faults cross one, or end at it."""
     line = lines[name]
     others = [other for key, other in lines.items() if key != name]
-    met = [point.coords[0] for other in others for point in _crossings(line, other)]
-    return met + [end for other in others for end in (other.coords[0], other.coords[-1]) if _touches(line, end)]
+    crossings = [point.coords[0] for other in others for point in _common_points(line, other)]
+    return crossings + [end for other in others for end in (other.coords[0], other.coords[-1]) if _touches(line, end)]
 
 
-def _touches(line, point):
-    return line.distance(Point(point)) <= 1e-9 * line.length
+def _touches(line: LineString, point: Position) -> bool:
+    return bool(line.distance(Point(point)) <= 1e-9 * line.length)
 
 
-def with_points(line: LineString, places) -> LineString:
-    """A line with some more places on it among its points, in order."""
-    points = shapely.get_coordinates(line)
-    ways = [line.project(Point(point)) for point in points]
-    for place in places:
-        way = line.project(Point(place))
-        nearest = int(np.argmin(np.abs(np.array(ways) - way)))
-        if abs(ways[nearest] - way) > 1e-9 * line.length:
-            number = int(np.searchsorted(ways, way))
-            points, ways = np.insert(points, number, place, axis=0), [*ways[:number], way, *ways[number:]]
-    return LineString(points)
+def insert_points(line: LineString, points: Iterable[Position]) -> LineString:
+    """Insert points that lie on a line among its own, in order."""
+    vertices = shapely.get_coordinates(line)
+    arc_lengths = [line.project(Point(vertex)) for vertex in vertices]
+    for point in points:
+        arc_length = line.project(Point(point))
+        nearest = int(np.argmin(np.abs(np.array(arc_lengths) - arc_length)))
+        if abs(arc_lengths[nearest] - arc_length) > 1e-9 * line.length:
+            index = int(np.searchsorted(arc_lengths, arc_length))
+            vertices = np.insert(vertices, index, point, axis=0)
+            arc_lengths.insert(index, arc_length)
+    return LineString(vertices)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 SEVERITIES = ("note", "warning", "problem")
 COLOURS = {"note": ("#546e7a", "white"), "warning": ("#ffb300", "#212121"), "problem": ("#d32f2f", "white")}
-"""Fill of each severity's label and ink on it: readable (WCAG AA) on light and dark pages alike."""
+"""Background and text colour of each severity: readable (WCAG AA) on light and dark pages alike."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Finding:
         A short key, such as ``"unsettled"``, ``"cut-off"``, ``"contact"``, ``"overlap"``, ``"fault end"``,
         ``"bed length"`` or ``"datum"``.
     text : str
-        One sentence for the user: what was found, where, and what to do about it.
+        One sentence for the user: the observation, where, and what to do about it.
     pick : str, optional
         Name of the fault or horizon concerned.
     where : (x, z), optional
@@ -34,7 +34,7 @@ class Finding:
     pick: str | None = None
     where: tuple[float, float] | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.severity not in SEVERITIES:
             raise ValueError(f"severity must be one of {SEVERITIES}, but is {self.severity!r}")
 

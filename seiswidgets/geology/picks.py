@@ -1,16 +1,18 @@
-"""What an interpreter draws on a section: faults, horizons, and both together."""
+"""Picks of an interpreter on a section: faults, horizons, and both together."""
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import shapely
+from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError
 
 FAULT, HORIZON = "fault", "horizon"
-AT_ONCE = 64  # segments of a line that are looked at together for one that meets an earlier one
+SEGMENTS_AT_ONCE = 64  # of a line, tested together for one that meets an earlier one
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +24,7 @@ class Fault:
     points : array, shape (n, 2), n >= 2
         Rows ``(x, z)`` in the section's units.
     name : str
-        What errors and reports call it.
+        Its name in errors and reports.
 
     Raises
     ------
@@ -33,8 +35,8 @@ class Fault:
     points: np.ndarray
     name: str = "fault"
 
-    def __post_init__(self):
-        object.__setattr__(self, "points", _polyline(self.points, f"fault {self.name!r}"))
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", _polyline(self.points, f"fault {self.name!r}", self.name))
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -46,7 +48,7 @@ class Horizon:
     *pieces : arrays, each of shape (n, 2), n >= 2
         Rows ``(x, z)`` in the section's units; pieces and their points in any direction and order.
     name : str
-        What errors and reports call it.
+        Its name in errors and reports.
 
     Raises
     ------
@@ -57,15 +59,18 @@ class Horizon:
     pieces: tuple[np.ndarray, ...]
     name: str = "horizon"
 
-    def __init__(self, *pieces, name="horizon"):
+    def __init__(self, *pieces: ArrayLike, name: str = "horizon") -> None:
         object.__setattr__(self, "name", name)
         if not pieces:
-            raise PickError(f"horizon {name!r} needs at least one piece; draw a line of two points or more")
-        checked = (_polyline(piece, f"piece {number} of horizon {name!r}") for number, piece in enumerate(pieces, 1))
-        object.__setattr__(self, "pieces", tuple(checked))
+            raise PickError(f"horizon {name!r} needs at least one piece; draw a line of two points or more", pick=name)
+        lines = (_polyline(piece, f"piece {index} of horizon {name!r}", name) for index, piece in enumerate(pieces, 1))
+        object.__setattr__(self, "pieces", tuple(lines))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Horizon({', '.join(f'{len(piece)} points' for piece in self.pieces)}, name={self.name!r})"
+
+
+Pick = TypeVar("Pick", Fault, Horizon)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,99 +83,112 @@ class Interpretation:
         If two faults, or two horizons, have the same name.
     """
 
-    faults: tuple[Fault, ...] = ()
-    horizons: tuple[Horizon, ...] = ()
+    faults: Sequence[Fault] = ()
+    horizons: Sequence[Horizon] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for kind in ("faults", "horizons"):
             object.__setattr__(self, kind, tuple(getattr(self, kind)))
             repeated = [name for name, count in Counter(pick.name for pick in getattr(self, kind)).items() if count > 1]
             if repeated:
-                raise PickError(f"two {kind} are called {repeated[0]!r}; give each a name of its own")
+                raise PickError(f"two {kind} are called {repeated[0]!r}; give each a name of its own", pick=repeated[0])
 
     def fault(self, name: str) -> Fault:
         """The fault of that name; PickError if there is none."""
-        return _named(self.faults, "fault", name)
+        return _find(self.faults, FAULT, name)
 
     def horizon(self, name: str) -> Horizon:
         """The horizon of that name; PickError if there is none."""
-        return _named(self.horizons, "horizon", name)
+        return _find(self.horizons, HORIZON, name)
 
 
-def usable(drawn: Iterable) -> tuple[Interpretation, tuple]:
-    """What can be used of lines that were drawn, and what is wrong with the others.
+Problem = tuple[str, str, int, str]  # kind and name of a pick, index of the piece, and what is wrong with it
+
+
+def usable(drawn: Iterable[tuple[str, str, Sequence[ArrayLike]]]) -> tuple[Interpretation, tuple[Problem, ...]]:
+    """Separate drawn lines into an interpretation of those that can be used, and the problems of the others.
 
     Parameters
     ----------
     drawn : iterable of (kind, name, pieces)
-        "fault" or "horizon", its name, and lists of points (x, z): of a fault, one.
+        "fault" or "horizon", its name, and lists of points (x, z); one list for a fault.
 
     Returns
     -------
     interpretation : Interpretation
-    problems : tuple of (kind, name, number, message)
-        Of each piece that cannot be used, counted from 0.
+    problems : tuple of (kind, name, index, message)
+        One for each piece that cannot be used; pieces count from 0.
     """
-    made, problems = {FAULT: [], HORIZON: []}, []
+    faults: list[Fault] = []
+    horizons: list[Horizon] = []
+    problems: list[Problem] = []
     for kind, name, pieces in drawn:
-        messages = [_problem(kind, name, pieces, number) for number in range(len(pieces))]
-        problems += [(kind, name, number, message) for number, message in enumerate(messages) if message]
+        messages = [_problem(kind, name, piece, index) for index, piece in enumerate(pieces)]
+        problems += [(kind, name, index, message) for index, message in enumerate(messages) if message]
         good = [piece for piece, message in zip(pieces, messages, strict=True) if not message]
-        if good:
-            made[kind].append(Fault(*good, name=name) if kind == FAULT else Horizon(*good, name=name))
-    return Interpretation(made[FAULT], made[HORIZON]), tuple(problems)
+        if good and kind == FAULT:
+            (points,) = good
+            faults.append(Fault(np.asarray(points), name))
+        elif good:
+            horizons.append(Horizon(*good, name=name))
+    return Interpretation(faults, horizons), tuple(problems)
 
 
-def _problem(kind, name, pieces, number):
-    """Why a piece cannot be used, or None."""
-    what = f"fault {name!r}" if kind == FAULT else f"piece {number + 1} of horizon {name!r}"
+def _problem(kind: str, name: str, piece: ArrayLike, index: int) -> str | None:
+    """The reason why a piece cannot be used, or None."""
     try:
-        _polyline(pieces[number], what)
+        _polyline(piece, f"fault {name!r}" if kind == FAULT else f"piece {index + 1} of horizon {name!r}", name)
     except PickError as error:
         return str(error)
     return None
 
 
-def _named(picks, kind, name):
+def _find(picks: Sequence[Pick], kind: str, name: str) -> Pick:
     for pick in picks:
         if pick.name == name:
             return pick
-    raise PickError(f"there is no {kind} called {name!r}; there are {', '.join(repr(p.name) for p in picks) or 'none'}")
+    names = ", ".join(repr(pick.name) for pick in picks) or "none"
+    raise PickError(f"there is no {kind} called {name!r}; there are {names}", pick=name)
 
 
-def _polyline(points, what):
+def _polyline(points: ArrayLike, what: str, name: str) -> np.ndarray:
+    """Validate the points of a line; ``what`` names the line in errors, ``name`` the pick it belongs to."""
     try:
         line = np.array(points, dtype=float)
     except (TypeError, ValueError):
-        raise PickError(f"{what} must be a list of points (x, z), each of two numbers") from None
+        raise PickError(f"{what} must be a list of points (x, z), each of two numbers", pick=name) from None
     if line.ndim != 2 or line.shape[1] != 2:
-        raise PickError(f"{what} must be a list of points (x, z), but has shape {line.shape}")
+        raise PickError(f"{what} must be a list of points (x, z), but has shape {line.shape}", pick=name)
     if not np.isfinite(line).all():
         bad = int(np.argmin(np.isfinite(line).all(axis=1)))
-        raise PickError(f"point {bad + 1} of {what} is not finite: ({line[bad, 0]:g}, {line[bad, 1]:g})")
+        raise PickError(f"point {bad + 1} of {what} is not finite: ({line[bad, 0]:g}, {line[bad, 1]:g})", pick=name)
     if len(line) < 2 or (line == line[0]).all():
-        raise PickError(f"{what} needs at least two different points, but has {len(np.unique(line, axis=0))}")
+        count = len(np.unique(line, axis=0))
+        raise PickError(f"{what} needs at least two different points, but has {count}", pick=name)
+    x, z = line[0].tolist()
     if (line[0] == line[-1]).all():
-        raise PickError(f"{what} closes on itself at x={line[0, 0]:g}, z={line[0, 1]:g}; leave it open")
+        raise PickError(f"{what} closes on itself at x={x:g}, z={z:g}; leave it open", pick=name, where=(x, z))
     if not shapely.LineString(line).is_simple:
         x, z = _self_crossing(line)
-        raise PickError(f"{what} crosses itself near x={x:g}, z={z:g}; redraw it or split it in two")
+        text = f"{what} crosses itself near x={x:g}, z={z:g}; redraw it or split it in two"
+        raise PickError(text, pick=name, where=(x, z))
     line.setflags(write=False)
     return line
 
 
-def _self_crossing(line):
-    """The first place where a polyline meets itself again."""
+def _self_crossing(line: np.ndarray) -> tuple[float, float]:
+    """The first point where a polyline meets itself again."""
     line = line[np.append(True, (line[1:] != line[:-1]).any(axis=1))]
     segments = shapely.linestrings(np.stack([line[:-1], line[1:]], axis=1))
     tree = shapely.STRtree(segments)
-    for start in range(0, len(segments), AT_ONCE):
-        later, earlier = tree.query(segments[start : start + AT_ONCE], predicate="intersects")
+    for start in range(0, len(segments), SEGMENTS_AT_ONCE):
+        later, earlier = tree.query(segments[start : start + SEGMENTS_AT_ONCE], predicate="intersects")
         later += start
         pairs = np.column_stack([later, earlier])[earlier < later]
         pairs = pairs[np.lexsort(pairs.T[::-1])]
         shared = shapely.intersection(segments[pairs[:, 1]], segments[pairs[:, 0]])
         again = (pairs[:, 0] - pairs[:, 1] > 1) | (shapely.length(shared) > 0)  # neighbours have a point in common
         if again.any():
-            return shared[np.argmax(again)].centroid.coords[0]
-    return tuple(line[0])
+            x, z = shared[np.argmax(again)].centroid.coords[0]
+            return float(x), float(z)
+    return float(line[0, 0]), float(line[0, 1])

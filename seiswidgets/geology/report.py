@@ -1,4 +1,4 @@
-"""What a stage of a restoration has achieved, in numbers with units."""
+"""The report of a stage: what it has achieved, in numbers with units."""
 
 from dataclasses import dataclass
 from html import escape
@@ -8,7 +8,7 @@ from seiswidgets.geology.findings import COLOURS, Finding, worst_first
 
 @dataclass(frozen=True)
 class CutOffReport:
-    """Of one horizon at one fault: throw and heave before, and what parts the cut-offs after."""
+    """Throw and heave of a horizon at a fault before the step, and the distance between its cut-offs after it."""
 
     fault: str
     horizon: str
@@ -19,7 +19,7 @@ class CutOffReport:
 
 @dataclass(frozen=True)
 class SeamReport:
-    """Of one fault: area of gap and of overlap between its sides before they are welded, and the widest of either."""
+    """Area of gap and of overlap between the sides of a fault before they are welded, and the widest of either."""
 
     fault: str
     gap: float
@@ -29,7 +29,7 @@ class SeamReport:
 
 @dataclass(frozen=True)
 class BedReport:
-    """Of one horizon: change of its length as a share of it, and its distance from the datum (RMS), if flattened."""
+    """Relative change of a horizon's length, and its RMS distance from the datum if it was flattened."""
 
     horizon: str
     length_change: float
@@ -37,8 +37,18 @@ class BedReport:
 
 
 @dataclass(frozen=True)
+class Observations:
+    """Cut-offs, seams, beds and findings of a stage."""
+
+    cutoffs: tuple[CutOffReport, ...] = ()
+    seams: tuple[SeamReport, ...] = ()
+    beds: tuple[BedReport, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True)
 class Report:
-    """What was achieved by a stage.
+    """The achievements of a stage.
 
     Attributes
     ----------
@@ -49,17 +59,17 @@ class Report:
     vertices, triangles : int
     iterations, factorisations : int
     converged : bool
-        Whether the solver settled: no vertex moved by more than 1e-6 of the mesh spacing in its last step, or five
+        True if the solver settled: no vertex moved by more than 1e-6 of the mesh spacing in its last step, or five
         steps of less than 1e-4 of it brought no gain.
     seconds : float
     energy : dict of str to float
         By term, in square metres, weights included.
     flipped : int
-        Triangles turned over: always 0, since a stage that would turn any is refused.
+        Number of triangles turned over: always 0, since a stage that would turn any is refused.
     area_ratio : dict of int to float
         Percentiles, by area, of initial over final area; above 1 is compression.
     overlap : float
-        Area of rock that lies on other rock after the step, in square metres; there the way back is not unique.
+        Area of rock that lies on other rock after the step, in square metres; there the inverse is not unique.
     cutoffs : tuple of CutOffReport
         Throw in the unit of z and heave in that of x, before; the misfit in metres, after.
     seams : tuple of SeamReport
@@ -67,8 +77,8 @@ class Report:
     beds : tuple of BedReport
         Flatness in the unit of z.
     findings : tuple of Finding
-        What the user should know, problems first: a solver that did not settle; cut-offs, contacts and levels that are
-        more than a tenth of a sample off; rock on rock; beds that changed their length; faults that end inside.
+        Observations worth showing, problems first: a solver that did not settle; cut-offs, contacts and levels that
+        are more than a tenth of a sample off; rock on rock; beds that changed their length; faults that end inside.
     x_unit, z_unit : str
     """
 
@@ -81,23 +91,23 @@ class Report:
     factorisations: int
     converged: bool
     seconds: float
-    energy: dict
+    energy: dict[str, float]
     flipped: int
-    area_ratio: dict
+    area_ratio: dict[int, float]
     overlap: float = 0.0
-    cutoffs: tuple = ()
-    seams: tuple = ()
-    beds: tuple = ()
+    cutoffs: tuple[CutOffReport, ...] = ()
+    seams: tuple[SeamReport, ...] = ()
+    beds: tuple[BedReport, ...] = ()
     findings: tuple[Finding, ...] = ()
     x_unit: str = "m"
     z_unit: str = "m"
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the report line by line, each a label and a text with its unit; findings follow the first line."""
-        state = "settled" if self.converged else "did NOT settle"
+        outcome = "settled" if self.converged else "did NOT settle"
         iterations = f"{self.iterations} iterations, {self.factorisations} factorisations, {self.seconds:.2f} s"
         rows = [
-            (f"{self.kind} {', '.join(self.picks)}", f"{self.solver}: {state} in {iterations}"),
+            (f"{self.kind} {', '.join(self.picks)}", f"{self.solver}: {outcome} in {iterations}"),
             *((finding.severity, finding.text) for finding in worst_first(self.findings)),
             ("mesh", f"{self.vertices} vertices, {self.triangles} triangles, {self.flipped} flipped"),
             ("energy (m²)", ", ".join(f"{name} {value:.2g}" for name, value in self.energy.items())),
@@ -120,12 +130,12 @@ class Report:
             rows.append((f"horizon {bed.horizon}", f"bed length {bed.length_change:+.2%}{level}"))
         return rows
 
-    def __str__(self):
+    def __str__(self) -> str:
         rows = self.rows()
         width = max(len(label) for label, _ in rows)
         return "\n".join(f"{label:<{width}}  {text}" for label, text in rows)
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         cells = (
             f'<tr><th style="{_label_style(label)}">{escape(label)}</th>'
             f'<td style="text-align: left">{escape(text)}</td></tr>'

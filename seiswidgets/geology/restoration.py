@@ -1,45 +1,45 @@
-"""The restoration of a section: a chain of stages, each a value made from the one before."""
+"""The restoration of a section: a chain of stages, each made from the one before."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Unpack
 
 import numpy as np
 import shapely
+from numpy.typing import ArrayLike
 from shapely import LineString
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.flattening import flattened
+from seiswidgets.geology.flattening import flatten_stage
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.solve import GAUSS_NEWTON, Options
+from seiswidgets.geology.solve import SolverKeywords, SolverOptions
 from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.transfer import area_ratio_at, carried_fault, carried_horizon, carried_point, picture
-from seiswidgets.geology.unfaulting import unfaulted
-from seiswidgets.geology.weights import Weights
+from seiswidgets.geology.unfaulting import unfault_stage
 
 
 @dataclass(frozen=True, eq=False)
 class Restoration:
     """A section and the stages that restore it.
 
-    A value: ``unfault`` and ``flatten`` return a new one with a stage more. Stages can be chained in any order; faults,
+    A value: `unfault` and `flatten` return a new one with one more stage. Stages can be chained in any order; faults,
     horizons and held points are always given in the coordinates of the original section.
 
     Parameters
     ----------
     original : Section
-        As it is today.
+        The present-day section.
     spacing : float, optional
-        Typical length of the mesh's edges, in metres of rock; where it is left out, such that a mesh has about 2,500
-        vertices.
+        Typical length of the mesh's edges, in metres of rock; by default such that a mesh has about 2,500 vertices.
     stages : tuple of Stage
-        Those made so far.
+        The stages so far.
     quick : bool
-        Whether lines may lose what is small beside the mesh spacing, for a quick look.
+        True if lines may lose details that are small beside the mesh spacing, for a preview.
 
     Raises
     ------
@@ -62,7 +62,7 @@ class Restoration:
     stages: tuple[Stage, ...] = ()
     quick: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not isinstance(self.original, Section):
             raise SettingError(
                 f"a restoration starts from a seiswidgets.Section, but got a {type(self.original).__name__}"
@@ -79,11 +79,7 @@ class Restoration:
         horizons: Horizon | Sequence[Horizon],
         *,
         fixed: tuple[float, float] | None = None,
-        weights: Weights | None = None,
-        solver: str = GAUSS_NEWTON,
-        max_iterations: int | None = None,
-        progress: Callable[[int, float, np.ndarray], bool | None] | None = None,
-        start: Stage | None = None,
+        **options: Unpack[SolverKeywords],
     ) -> "Restoration":
         """Slide the blocks back along some faults until the horizons match across them (the paper's section 3.1).
 
@@ -100,53 +96,43 @@ class Restoration:
         solver : {"gauss-newton", "fixed-point"}
             The second is the paper's (eq. 16), kept for teaching and comparison.
         max_iterations : int, optional
-            200 Gauss-Newton steps, or 1000 of the fixed point, if left out. A solver that has not settled by then
-            says so in the report.
+            By default 200 Gauss-Newton steps, or 1000 of the fixed point. A solver that has not settled by then says
+            so in the report.
         progress : callable(iteration, energy, vertices), optional
             Called after each iteration; returning False cancels.
         start : Stage, optional
-            An earlier solution of nearly the same task, to start from.
+            An earlier solution of a similar problem, to start from.
 
         Raises
         ------
         PickError
             If the picks cannot be used as they were drawn.
         SettingError
-            If a choice is out of its range, or the mesh would be too large.
+            If an option is out of its range or misspelt, or the mesh would be too large.
         FlippedError
             If the fixed point turns triangles over.
         Cancelled
             If ``progress`` returned False.
         """
-        options = Options(weights or Weights(), solver, max_iterations, progress, start)
-        faults, horizons = (
-            validation.named_picks(faults, Fault, "fault"),
-            validation.named_picks(horizons, Horizon, "horizon"),
-        )
-        if not faults:
+        solver_options = SolverOptions.from_keywords("unfault", options)
+        named_faults = validation.named_picks(faults, Fault, "fault")
+        named_horizons = validation.named_picks(horizons, Horizon, "horizon")
+        if not named_faults:
             raise PickError("there is no fault to unfault; give at least one")
         held = None if fixed is None else carried_point(self.original, self.stages, fixed)
-        fault_points = {name: carried_fault(self.original, self.stages, fault) for name, fault in faults.items()}
-        pieces = {name: carried_horizon(self.original, self.stages, horizon) for name, horizon in horizons.items()}
-        stage = unfaulted(self.domain, fault_points, pieces, held, options)
+        lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in named_faults.items()}
+        beds = {name: carried_horizon(self.original, self.stages, bed) for name, bed in named_horizons.items()}
+        stage = unfault_stage(self.domain, lines, beds, held, solver_options)
         return replace(self, stages=(*self.stages, stage))
 
     def flatten(
-        self,
-        horizon: Horizon,
-        *,
-        datum: float | None = None,
-        weights: Weights | None = None,
-        solver: str = GAUSS_NEWTON,
-        max_iterations: int | None = None,
-        progress: Callable[[int, float, np.ndarray], bool | None] | None = None,
-        start: Stage | None = None,
+        self, horizon: Horizon, *, datum: float | None = None, **options: Unpack[SolverKeywords]
     ) -> "Restoration":
         """Bring a horizon to one level while it keeps its length (the paper's section 3.2).
 
-        Level and length are wishes with weights, not constraints. With the default weights sine folds keep their length
-        to 0.06% with limbs of up to 45 degrees and to 0.14% at 60 degrees, and lie within 0.02 m of the level, on
-        meshes of 40 to 100 m; the rock above and below pays for that with its area. The report holds a finding where
+        Level and length are weighted requirements, not constraints. With the default weights sine folds keep their
+        length to 0.06% with limbs of up to 45 degrees and to 0.14% at 60 degrees, and lie within 0.02 m of the level,
+        on meshes of 40 to 100 m; the rock above and below pays for that with its area. The report holds a finding where
         the length changes by more than 0.5%, or the horizon stays more than a tenth of a sample off its level.
 
         Parameters
@@ -155,39 +141,38 @@ class Restoration:
         datum : float, optional
             The level, in the section's unit of z; the horizon's mean level if left out.
         weights, solver, max_iterations, progress, start
-            As for ``unfault``.
+            As for `unfault`.
 
         Raises
         ------
         PickError, SettingError, FlippedError, Cancelled
-            As for ``unfault``.
+            As for `unfault`.
         """
-        options = Options(weights or Weights(), solver, max_iterations, progress, start)
+        solver_options = SolverOptions.from_keywords("flatten", options)
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
         if datum is not None:
-            datum = validation.finite_number("datum", datum) * self.original.metres[1]
+            datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
         pieces = carried_horizon(self.original, self.stages, horizon)
-        stage = flattened(self.domain, horizon.name, pieces, datum, options)
+        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options)
         return replace(self, stages=(*self.stages, stage))
 
     @cached_property
     def domain(self) -> RestorationDomain:
-        """What the next stage will start from."""
-        if not self.stages:
-            x_min, x_max, z_min, z_max = self.original.extent
-            corners = self.original.to_rock([(x_min, z_min), (x_max, z_max)])
-            return RestorationDomain(shapely.box(*corners.ravel()), self.original, self.spacing, self.quick)
-        return RestorationDomain(self.stages[-1].outline, self.original, self.spacing, self.quick)
+        """The rock that the next stage starts from."""
+        x_min, x_max, z_min, z_max = self.original.extent
+        corners = self.original.to_rock([(x_min, z_min), (x_max, z_max)])
+        outline = self.stages[-1].outline if self.stages else shapely.box(*corners.ravel())
+        return RestorationDomain(outline, self.original, self.spacing, self.quick)
 
-    def to_restored(self, points) -> np.ndarray:
-        """Where points of the original section lie after all stages, NaN outside; in its units, shape (n, 2)."""
+    def to_restored(self, points: ArrayLike) -> np.ndarray:
+        """Carry points of the original section through all stages, NaN outside; in its units, shape (n, 2)."""
         points = self.original.to_rock(validation.as_points(points))
         for stage in self.stages:
             points = stage.map.forward(points)
         return self.original.from_rock(points)
 
-    def to_original(self, points) -> np.ndarray:
-        """Where points of the restored section lie in the original one, NaN outside; in its units, shape (n, 2)."""
+    def to_original(self, points: ArrayLike) -> np.ndarray:
+        """Carry points of the restored section back to the original, NaN outside; in its units, shape (n, 2)."""
         points = self.original.to_rock(validation.as_points(points))
         for stage in reversed(self.stages):
             points = stage.map.inverse(points)
@@ -200,42 +185,41 @@ class Restoration:
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
-        """The findings of all stages, problems first; ``where`` is a place in the original section, or None."""
-        found = []
-        for number, stage in enumerate(self.stages):
-            before = replace(self, stages=self.stages[:number])
-            found += [replace(finding, where=before._origin(finding.where)) for finding in stage.report.findings]
-        return worst_first(found)
+        """The findings of all stages, problems first; ``where`` is a position in the original section, or None."""
+        findings: list[Finding] = []
+        for index, stage in enumerate(self.stages):
+            before = replace(self, stages=self.stages[:index])
+            findings += [replace(finding, where=before._origin(finding.where)) for finding in stage.report.findings]
+        return worst_first(findings)
 
-    def _origin(self, where):
-        """The place in the original section of one in the restored section, or of one beside it; None outside."""
+    def _origin(self, where: tuple[float, float] | None) -> tuple[float, float] | None:
+        """Carry a position in the restored section, or one beside it, back to the original; None outside."""
         if where is None or not self.stages:
             return where
         step = 1e-3 * self.stages[-1].spacing / self.original.metres  # the border may be off by rounding
         around = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)])
         origins = self.to_original(where + step * around)
         known = origins[np.isfinite(origins).all(axis=1)]
-        return tuple(map(float, known[0])) if len(known) else None
+        return (float(known[0, 0]), float(known[0, 1])) if len(known) else None
 
     @cached_property
     def section(self) -> Section:
         """The restored section: each sample interpolated once, in the original (cubic).
 
-        It has the original's spacing, and its samples stand on the same lattice; it reaches as far as the rock does.
-        NaN where nothing maps.
+        It has the original's spacing and lattice of samples, and covers all of the rock. NaN where there is no rock.
         """
         return self.picture(order=3)
 
     def picture(self, order: int = 3, cells: int | None = None) -> Section:
-        """The restored section with a choice of interpolation, and of how many samples it has.
+        """The restored section, with a choice of the interpolation and the number of samples.
 
         Parameters
         ----------
         order : int
             1 is linear and quick, 3 is cubic.
         cells : int, optional
-            At most so many samples: only every second, third, ... sample of the lattice is made, such that ``dx`` and
-            ``dz`` grow alike. For pictures that follow the mouse: nothing is smoothed before it is thinned out.
+            Largest number of samples: only every second, third, ... sample of the lattice is computed, such that ``dx``
+            and ``dz`` grow alike. For pictures that follow the mouse: amplitudes are not smoothed before decimation.
 
         Raises
         ------
@@ -248,10 +232,10 @@ class Restoration:
         return picture(self.original, self.stages, order, cells)
 
     def at(self, time: float) -> "Restoration":
-        """The restoration at a moment: 0 is today's section, 1 the section after the first stage, and so on.
+        """The restoration at a moment: 0 is the present-day section, 1 the section after the first stage, and so on.
 
-        In between, a stage is part of the way: each block turns by its share of the angle, about the same pole, and
-        what else it does to its shape it does evenly. The report is that of the whole stage.
+        In between, a stage is carried out in part: each block turns by a share of its angle, about the same pole, and
+        the rest of its deformation grows linearly. The report is that of the whole stage.
 
         Raises
         ------
@@ -260,12 +244,14 @@ class Restoration:
         """
         time, count = validation.finite_number("time", time), len(self.stages)
         if not 0 <= time <= count:
-            raise SettingError(f"time must be between 0 (today) and {count} (after the last stage), but is {time:g}")
+            raise SettingError(
+                f"time must be between 0 (present day) and {count} (after the last stage), but is {time:g}"
+            )
         whole = int(time)
         part = () if time == whole else (self.stages[whole].part(time - whole),)
         return replace(self, stages=self.stages[:whole] + part)
 
-    def area_ratio_at(self, points) -> np.ndarray:
+    def area_ratio_at(self, points: ArrayLike) -> np.ndarray:
         """Initial over final area, of all stages together, at points of the original section; NaN outside.
 
         Parameters
@@ -277,7 +263,7 @@ class Restoration:
 
     @property
     def maps_to_restored(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """What ``to_restored`` does, stage by stage, for programs that carry points themselves.
+        """The maps of `to_restored`, stage by stage, for programs that carry points themselves.
 
         Each is ``(source, target, triangles)``: vertices before and after, shape (n, 2), in the section's units, and
         corners of the triangles, shape (m, 3). A point keeps its barycentric coordinates in the triangle that holds it.
@@ -287,17 +273,17 @@ class Restoration:
 
     @property
     def maps_to_original(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """What ``to_original`` does, stage by stage; as ``maps_to_restored``."""
+        """The maps of `to_original`, stage by stage; as `maps_to_restored`."""
         return [(target, source, triangles) for source, target, triangles in reversed(self.maps_to_restored)]
 
     def carried(self, pick: Fault | Horizon) -> list[np.ndarray]:
-        """A fault or a horizon as it lies after all stages: its lines, each of shape (n, 2), in the section's units."""
+        """Lines of a fault or a horizon after all stages, each of shape (n, 2), in the section's units."""
         if isinstance(pick, Fault):
             lines = [LineString(carried_fault(self.original, self.stages, pick))]
         else:
             lines = carried_horizon(self.original, self.stages, pick)
         return [self.original.from_rock(shapely.get_coordinates(line)) for line in lines]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         stages = ", ".join(stage.kind for stage in self.stages) or "no stage yet"
         return f"<Restoration of {self.original!r}: {stages}>"

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from seiswidgets.errors import SectionError
+from seiswidgets.errors import Keyword, SectionError
 
 METRES = {"m": 1.0, "km": 1000.0, "ft": 0.3048}
 SECONDS = {"s": 1.0, "ms": 0.001}
@@ -31,14 +32,14 @@ class Section:
     z_unit : {"m", "km", "ft", "ms", "s"}
         Unit of z: a depth, or a two-way time, which needs a velocity.
     velocity : float
-        Velocity of sound in the rock, in m/s; for two-way time only.
+        Seismic (P-wave) velocity, in m/s; for two-way time only.
     name, credit : str
-        What the section is, and whom its data are owed to; shown with its pictures.
+        Title of the section, and the owner of its data; shown with its pictures.
 
     Raises
     ------
     SectionError
-        If these do not make a section; the message says what must hold and what came.
+        If a parameter is out of its range.
     """
 
     amplitude: np.ndarray
@@ -52,10 +53,10 @@ class Section:
     name: str = ""
     credit: str = ""
 
-    def __post_init__(self):
-        object.__setattr__(self, "amplitude", _checked_amplitude(self.amplitude))
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "amplitude", _validate_amplitude(self.amplitude))
         for field in ("dx", "dz", "x0", "z0"):
-            object.__setattr__(self, field, _checked_number(field, getattr(self, field)))
+            object.__setattr__(self, field, _validate_number(field, getattr(self, field)))
         for field in ("dx", "dz"):
             if getattr(self, field) <= 0:
                 raise SectionError(f"{field} must be above 0, but is {getattr(self, field):g}")
@@ -63,35 +64,46 @@ class Section:
             raise SectionError(f"x_unit must be one of {', '.join(METRES)}, but is {self.x_unit!r}")
         if self.z_unit not in (*METRES, *SECONDS):
             raise SectionError(f"z_unit must be one of {', '.join([*METRES, *SECONDS])}, but is {self.z_unit!r}")
-        object.__setattr__(self, "velocity", self._checked_velocity())
+        object.__setattr__(self, "velocity", self._validate_velocity())
         for field in ("name", "credit"):
             if not isinstance(getattr(self, field), str):
-                raise SectionError(f"{field} must be a text, but is {getattr(self, field)!r}")
+                raise SectionError(f"{field} must be text, but is {getattr(self, field)!r}")
 
-    def _checked_velocity(self):
+    def _validate_velocity(self) -> float | None:
         if self.velocity is None:
             if self.is_time:
                 raise SectionError(
-                    f"a section in two-way time (z_unit={self.z_unit!r}) needs velocity=, in m/s, for its shapes to be "
-                    "kept in rock; 2000 suits shallow, soft sediment, 3500 well-compacted rock"
+                    "a section in two-way time (",
+                    Keyword("z_unit", self.z_unit),
+                    ") needs ",
+                    Keyword("velocity"),
+                    ", in m/s, to keep true shapes in rock; 2000 suits shallow, soft sediment, 3500 well-compacted "
+                    "rock",
                 )
             return None
         if not self.is_time:
-            raise SectionError(f"a section in depth (z_unit={self.z_unit!r}) takes no velocity; leave it out")
-        velocity = _checked_number("velocity", self.velocity)
+            raise SectionError(
+                "a section in depth (",
+                Keyword("z_unit", self.z_unit),
+                ") takes no ",
+                Keyword("velocity"),
+                "; leave it out",
+            )
+        velocity = _validate_number("velocity", self.velocity)
         if velocity <= 0:
             raise SectionError(f"velocity must be above 0 m/s, but is {velocity:g}")
         return velocity
 
     @property
     def is_time(self) -> bool:
-        """Whether z is a two-way time."""
+        """True if z is a two-way time."""
         return self.z_unit in SECONDS
 
     @property
     def shape(self) -> tuple[int, int]:
         """Number of samples and of traces, ``(nz, nx)``."""
-        return self.amplitude.shape
+        nz, nx = self.amplitude.shape
+        return nz, nx
 
     @cached_property
     def x(self) -> np.ndarray:
@@ -112,24 +124,24 @@ class Section:
     @cached_property
     def metres(self) -> np.ndarray:
         """Metres of rock in one unit of x and one of z, shape (2,)."""
-        z = SECONDS[self.z_unit] * self.velocity / 2 if self.is_time else METRES[self.z_unit]
+        z = METRES[self.z_unit] if self.velocity is None else SECONDS[self.z_unit] * self.velocity / 2
         return np.array([METRES[self.x_unit], z])
 
-    def to_rock(self, points) -> np.ndarray:
-        """Points in metres of rock, in true proportions, from points in the section's units; shape (n, 2)."""
-        return np.asarray(points, float) * self.metres
+    def to_rock(self, points: ArrayLike) -> np.ndarray:
+        """Convert points from the section's units to metres of rock, in true proportions; shape (n, 2)."""
+        return np.asarray(np.asarray(points, float) * self.metres)
 
-    def from_rock(self, points) -> np.ndarray:
-        """Points in the section's units from points in metres of rock; shape (n, 2)."""
-        return np.asarray(points, float) / self.metres
+    def from_rock(self, points: ArrayLike) -> np.ndarray:
+        """Convert points from metres of rock to the section's units; shape (n, 2)."""
+        return np.asarray(np.asarray(points, float) / self.metres)
 
-    def contains(self, points) -> np.ndarray:
-        """Whether each point lies on the section, its border included; shape (n,) of bool."""
+    def contains(self, points: ArrayLike) -> np.ndarray:
+        """True for each point on the section, its border included; shape (n,) of bool."""
         x, z = np.asarray(points, float).T
         x_min, x_max, z_min, z_max = self.extent
-        return (x >= x_min) & (x <= x_max) & (z >= z_min) & (z <= z_max)
+        return np.asarray((x >= x_min) & (x <= x_max) & (z >= z_min) & (z <= z_max))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         nz, nx = self.shape
         x_min, x_max, z_min, z_max = self.extent
         speed = f", {self.velocity:g} m/s" if self.is_time else ""
@@ -141,7 +153,7 @@ class Section:
         )
 
 
-def _checked_number(name, value):
+def _validate_number(name: str, value: float) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError):
@@ -151,7 +163,7 @@ def _checked_number(name, value):
     return number
 
 
-def _checked_amplitude(amplitude):
+def _validate_amplitude(amplitude: ArrayLike) -> np.ndarray:
     try:
         array = np.array(amplitude)
         array = array if array.dtype in (np.float32, np.float64) else array.astype(np.float64, casting="same_kind")

@@ -1,84 +1,152 @@
-"""How a stage is solved: the choice of solver, where it starts, and the refusal of flipped triangles."""
+"""Solving a stage: the solver's options, where it starts, and the refusal of flipped triangles."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TypedDict, TypeVar
 
 import numpy as np
 
 from seiswidgets.core.mesh import Mesh, triangle_areas
-from seiswidgets.core.solver import Solution, fixed_point, gauss_newton
-from seiswidgets.errors import FlippedError, SettingError
+from seiswidgets.core.solver import Progress, Solution, fixed_point, gauss_newton
+from seiswidgets.core.term import Term
+from seiswidgets.errors import FlippedError, Keyword, SettingError
+from seiswidgets.geology import validation
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.stage import MeshSetup, Stage
 from seiswidgets.geology.weights import Weights
+from seiswidgets.signatures import check_keywords
 
 GAUSS_NEWTON, FIXED_POINT = "gauss-newton", "fixed-point"
 TOLERANCE = 1e-6  # of the mesh spacing
-INWARDS = 1e-3, 0.1, 0.5  # of the way to a triangle's centre
+INWARDS = 1e-3, 0.1, 0.5  # shares of the distance to a triangle's centre
+SetupT = TypeVar("SetupT", bound=MeshSetup)
 MOST_ITERATIONS = {GAUSS_NEWTON: 200, FIXED_POINT: 1000}
 
 
+class SolverKeywords(TypedDict, total=False):
+    """The keyword arguments of `SolverOptions`."""
+
+    weights: Weights
+    solver: str
+    max_iterations: int | None
+    progress: Callable[[int, float, np.ndarray], bool | None] | None
+    start: Stage | None
+
+
 @dataclass(frozen=True)
-class Options:
-    """The choices that ``unfault`` and ``flatten`` share; see there."""
+class SolverOptions:
+    """Keyword arguments that `Restoration.unfault` and `Restoration.flatten` share.
+
+    Parameters
+    ----------
+    weights : Weights, optional
+        Those of the paper if left out.
+    solver : {"gauss-newton", "fixed-point"}
+        The second is the paper's (eq. 16), kept for teaching and comparison.
+    max_iterations : int, optional
+        By default 200 Gauss-Newton steps, or 1000 of the fixed point. A solver that has not settled by then says so in
+        the report.
+    progress : callable(iteration, energy, vertices), optional
+        Called after each iteration; returning False cancels.
+    start : Stage, optional
+        An earlier solution of a similar problem, to start from.
+
+    Raises
+    ------
+    SettingError
+        If one of them is out of its range.
+    """
 
     weights: Weights = field(default_factory=Weights)
     solver: str = GAUSS_NEWTON
     max_iterations: int | None = None
-    progress: Callable | None = None
-    start: object = None
+    progress: Progress | None = None
+    start: Stage | None = None
 
-    def __post_init__(self):
+    @classmethod
+    def from_keywords(cls, function: str, keywords: SolverKeywords) -> "SolverOptions":
+        """Validate the keyword arguments of a function; a misspelt one is a TypeError."""
+        check_keywords(function, keywords, SolverKeywords.__annotations__)
+        if keywords.get("weights") is None:
+            keywords["weights"] = Weights()
+        return cls(**keywords)
+
+    def __post_init__(self) -> None:
         if not isinstance(self.weights, Weights):
             raise SettingError(f"weights must be a seiswidgets.Weights, but is {self.weights!r}")
         if self.solver not in tuple(MOST_ITERATIONS):
             raise SettingError(f"solver must be {' or '.join(map(repr, MOST_ITERATIONS))}, but is {self.solver!r}")
-        limit = MOST_ITERATIONS[self.solver] if self.max_iterations is None else self.max_iterations
-        if not isinstance(limit, int | np.integer) or limit < 1:
-            raise SettingError(f"max_iterations must be a whole number of 1 or more, but is {limit!r}")
-        object.__setattr__(self, "max_iterations", int(limit))
+        if self.max_iterations is not None:
+            validation.whole_number("max_iterations", self.max_iterations, least=1)
         if self.progress is not None and not callable(self.progress):
             raise SettingError(
                 f"progress must be a function of iteration, energy and vertices, but is {self.progress!r}"
             )
-        if self.start is not None and not hasattr(self.start, "map"):
+        if self.start is not None and not isinstance(self.start, Stage):
             raise SettingError(f"start must be a stage of a restoration, as restored.stages[-1], but is {self.start!r}")
 
+    @property
+    def iteration_limit(self) -> int:
+        """Largest number of iterations."""
+        return MOST_ITERATIONS[self.solver] if self.max_iterations is None else int(self.max_iterations)
 
-def solved(mesh: Mesh, terms, start, free, spacing, options: Options, where, adrift=False) -> Solution:
-    """The mesh's vertices where the terms' energy is least.
+
+def minimise(
+    mesh: Mesh,
+    terms: Sequence[Term],
+    start: np.ndarray,
+    free: np.ndarray,
+    domain: RestorationDomain,
+    options: SolverOptions,
+    *,
+    adrift: bool = False,
+) -> Solution:
+    """Move the mesh's vertices to where the terms' energy is least.
 
     Parameters
     ----------
+    mesh : Mesh
+    terms : list of terms
+    start : array, shape (n, 2)
+    free : array of bool, shape (n,)
+        The vertices that may move.
+    domain : RestorationDomain
+    options : SolverOptions
     adrift : bool
-        Whether a rigid motion of all free vertices costs nothing.
+        True if a rigid motion of all free vertices costs nothing.
 
     Raises
     ------
     FlippedError
         If triangles are turned over at the end; it says how many and where the first is.
     """
-    settings = (TOLERANCE * spacing, options.max_iterations, options.progress)
+    settings = (TOLERANCE * domain.spacing, options.iteration_limit, options.progress)
     if options.solver == GAUSS_NEWTON:
-        return gauss_newton(terms, mesh.triangles, start, anchored(mesh) if adrift else free, *settings)
+        return gauss_newton(terms, mesh.triangles, start, _anchor(mesh) if adrift else free, *settings)
     solution = fixed_point(terms, start, free, *settings)
     flipped = np.flatnonzero(triangle_areas(solution.vertices, mesh.triangles) <= 0)
     if len(flipped):
-        place = mesh.vertices[mesh.triangles[flipped[0]]].mean(axis=0)
+        centre = mesh.vertices[mesh.triangles[flipped[0]]].mean(axis=0)
         raise FlippedError(
             f"the {options.solver} solver has turned {len(flipped)} of {len(mesh.triangles)} triangles over, the first "
-            f"near {where(place)}; use solver={GAUSS_NEWTON!r}, or ask for less",
+            f"near {domain.where(centre)}; use ",
+            Keyword("solver", GAUSS_NEWTON),
+            ", or restore less in one step",
             count=len(flipped),
+            where=domain.position(centre),
         )
     return solution
 
 
-def anchored(mesh: Mesh) -> np.ndarray:
+def _anchor(mesh: Mesh) -> np.ndarray:
     """Coordinates that may change where a rigid motion of the whole costs nothing, shape (n, 2): all but three.
 
-    A vertex in the middle stays, and one far from it does not move round it. This takes nothing from any solution but
-    its rigid motion. Damping alone would leave Gauss-Newton slow: the residuals that are vectors turn with the whole,
-    so that J^T J sees a stiffness against turning which the energy does not have.
+    A vertex in the middle stays, and one far from it does not move around it. This removes only the rigid motion from
+    the solution. Damping alone would leave Gauss-Newton slow: residuals that are vectors turn with the whole, so that
+    J^T J has a stiffness against turning that the energy does not have.
     """
-    middle = np.argmin(np.hypot(*(mesh.vertices - np.average(mesh.vertices, axis=0, weights=vertex_masses(mesh))).T))
+    centre = np.average(mesh.vertices, axis=0, weights=mesh.vertex_areas)
+    middle = np.argmin(np.hypot(*(mesh.vertices - centre).T))
     arms = np.abs(mesh.vertices - mesh.vertices[middle])
     far = np.argmax(np.hypot(*arms.T))
     free = np.ones(mesh.vertices.shape, bool)
@@ -87,54 +155,39 @@ def anchored(mesh: Mesh) -> np.ndarray:
     return free
 
 
-def reusable_setup(earlier, fingerprint):
+def reusable_setup(earlier: Stage | None, setup: type[SetupT], fingerprint: tuple) -> SetupT | None:
     """Mesh set-up cached by an identical earlier stage, or None."""
-    return earlier.mesh_setup if earlier is not None and earlier.mesh_setup.fingerprint == fingerprint else None
+    if earlier is None or not isinstance(earlier.mesh_setup, setup):
+        return None
+    return earlier.mesh_setup if earlier.mesh_setup.fingerprint == fingerprint else None
 
 
-def warm_start(mesh: Mesh, free, earlier) -> np.ndarray | None:
+def warm_start(mesh: Mesh, free: np.ndarray, earlier: Stage | None) -> np.ndarray | None:
     """An earlier stage's deformation on this mesh, shape (n, 2); None if there is none, or it turns triangles over."""
     if earlier is None:
         return None
     if earlier.mesh_setup.mesh is mesh:
-        moved = earlier.vertices[: len(mesh.vertices)].copy()  # a weld adds vertices behind the mesh's own
+        moved = earlier.vertices[: len(mesh.vertices)].copy()  # welding adds vertices behind the mesh's own
     else:
         moved = earlier.map.forward(mesh.vertices, _triangles_before(mesh, earlier))
     moved[~free] = mesh.vertices[~free]
-    lost = ~np.isfinite(moved).all() or triangle_areas(moved, mesh.triangles).min() <= 0
-    return None if lost else moved
+    unusable = ~np.isfinite(moved).all() or triangle_areas(moved, mesh.triangles).min() <= 0
+    return None if unusable else moved
 
 
-def _triangles_before(mesh, earlier):
+def _triangles_before(mesh: Mesh, earlier: Stage) -> np.ndarray:
     """The triangle of an earlier stage's mesh that carries each vertex, -1 where there is none; shape (n,).
 
-    It is looked for a little inside one of the vertex's own triangles: a vertex on a cut lies on that side of it. Where
-    the rock now reaches beyond the earlier mesh, it is looked for farther inside, and carries what lies beside it.
+    The search starts a little inside one of the vertex's own triangles: a vertex on a cut lies on that side of it.
+    Where the rock now reaches beyond the earlier mesh, the search goes farther inside.
     """
     corner = np.empty(len(mesh.vertices), int)
     corner[mesh.triangles.ravel()] = np.arange(mesh.triangles.size)
     inwards = mesh.vertices[mesh.triangles[corner // 3]].mean(axis=1) - mesh.vertices
-    found = np.full(len(mesh.vertices), -1)
+    triangles = np.full(len(mesh.vertices), -1)
     for share in INWARDS:
-        missing = np.flatnonzero(found < 0)
+        missing = np.flatnonzero(triangles < 0)
         if not len(missing):
             break
-        found[missing] = earlier.map.source_finder(mesh.vertices[missing] + share * inwards[missing])
-    return found
-
-
-def nearest_rigid(rest, moved, masses) -> np.ndarray:
-    """Positions after the rigid motion that brings them nearest to where they were (Procrustes), shape (n, 2)."""
-    share = masses / masses.sum()
-    centre, centre_moved = share @ rest, share @ moved
-    a, b = moved - centre_moved, rest - centre
-    sine = share @ (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-    cosine = share @ np.sum(a * b, axis=1)
-    length = np.hypot(sine, cosine)
-    turn = np.array([[cosine, sine], [-sine, cosine]]) / length
-    return a @ turn + centre
-
-
-def vertex_masses(mesh: Mesh) -> np.ndarray:
-    """A third of the area of the triangles at each vertex, shape (n,)."""
-    return np.bincount(mesh.triangles.ravel(), np.repeat(mesh.areas / 3, 3), minlength=len(mesh.vertices))
+        triangles[missing] = earlier.map.source_finder(mesh.vertices[missing] + share * inwards[missing])
+    return triangles

@@ -6,12 +6,13 @@ from itertools import count
 
 import numpy as np
 import shapely
+from numpy.typing import ArrayLike
 from shapely import LineString
 
-from seiswidgets.core.resampling import resampled
+from seiswidgets.core.resampling import resample
 from seiswidgets.errors import PickError
 from seiswidgets.geology import validation
-from seiswidgets.geology.flattening import joined
+from seiswidgets.geology.flattening import join_pieces
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
@@ -19,27 +20,31 @@ from seiswidgets.geology.stage import Stage
 
 def carried_fault(original: Section, stages: Sequence[Stage], fault: Fault) -> np.ndarray:
     """The points of a fault after some stages, shape (n, 2)."""
-    lines = [LineString(validation.rock_points(original, fault.points, f"fault {fault.name!r}"))]
+    points = validation.rock_points(original, fault.points, f"fault {fault.name!r}", fault.name)
+    lines = [LineString(points)]
     for stage in stages:
         lines = [moved for line in lines for moved in stage.carried_fault(line)]
     if not lines:
-        raise PickError(f"nothing is left of fault {fault.name!r} after the stages before; it lies outside the rock")
+        raise PickError(
+            f"nothing is left of fault {fault.name!r} after the stages before; it lies outside the rock",
+            pick=fault.name,
+        )
     return np.concatenate([shapely.get_coordinates(line) for line in lines])
 
 
 def carried_horizon(original: Section, stages: Sequence[Stage], horizon: Horizon) -> list[LineString]:
-    """The pieces of a horizon after some stages, joined where they have come to meet."""
+    """The pieces of a horizon after some stages, joined where they now meet."""
     lines = [
-        LineString(validation.rock_points(original, piece, f"piece {number} of horizon {horizon.name!r}"))
-        for number, piece in enumerate(horizon.pieces, 1)
+        LineString(validation.rock_points(original, piece, f"piece {index} of horizon {horizon.name!r}", horizon.name))
+        for index, piece in enumerate(horizon.pieces, 1)
     ]
     for stage in stages:
-        lines = joined(stage.carried_horizon(lines), stage.spacing)
+        lines = join_pieces(stage.carried_horizon(lines), stage.spacing)
     return lines
 
 
-def carried_point(original: Section, stages: Sequence[Stage], fixed) -> np.ndarray:
-    """The point that is to be held, after some stages, shape (2,)."""
+def carried_point(original: Section, stages: Sequence[Stage], fixed: ArrayLike) -> np.ndarray:
+    """The held point after some stages, shape (2,)."""
     try:
         point = validation.as_points(fixed).reshape(1, 2)
     except ValueError:
@@ -50,14 +55,14 @@ def carried_point(original: Section, stages: Sequence[Stage], fixed) -> np.ndarr
     return point[0]
 
 
-def area_ratio_at(stages: Sequence[Stage], points) -> np.ndarray:
+def area_ratio_at(stages: Sequence[Stage], points: np.ndarray) -> np.ndarray:
     """Initial over final area, of all stages together, at points of the rock before the first one; shape (n,).
 
     Parameters
     ----------
     stages : list of Stage
     points : array, shape (n, 2)
-        In metres of rock; those outside have NaN.
+        In metres of rock; points outside give NaN.
     """
     ratio = np.ones(len(points))
     for stage in stages:
@@ -68,12 +73,12 @@ def area_ratio_at(stages: Sequence[Stage], points) -> np.ndarray:
 
 
 def picture(original: Section, stages: Sequence[Stage], order: int, cells: int | None) -> Section:
-    """A section after some stages, interpolated in the original; see ``Restoration.picture``."""
+    """A section after some stages, interpolated in the original; see `Restoration.picture`."""
     x, z, step = _lattice(original, stages, cells)
     columns, rows = _origins(original, stages, x, z) if stages else np.meshgrid(x, z)
     return replace(
         original,
-        amplitude=resampled(original.amplitude, columns, rows, order),
+        amplitude=resample(original.amplitude, columns, rows, order),
         x0=original.x0 + original.dx * x[0],
         z0=original.z0 + original.dz * z[0],
         dx=original.dx * step,
@@ -81,43 +86,46 @@ def picture(original: Section, stages: Sequence[Stage], order: int, cells: int |
     )
 
 
-def _lattice(original, stages, cells):
+def _lattice(original: Section, stages: Sequence[Stage], cells: int | None) -> tuple[np.ndarray, np.ndarray, int]:
     """Columns and rows of the picture, counted in samples of the original, and the step between them.
 
-    The step is the least that leaves no more than so many cells, and every column and row is a multiple of it: a
-    lattice that stands still while the rock moves over it.
+    The step is the least that leaves at most ``cells`` cells, and every column and row is a multiple of it: the lattice
+    stays in place while the rock moves over it.
     """
     low, high = _reach(original, stages)
     for step in count(1):
         first, last = np.ceil(low / step - 1e-6), np.floor(high / step + 1e-6)
-        thin = last <= first  # a section has two traces and two samples at least
+        thin = last <= first  # a section has at least two traces and two samples
         first, last = np.where(thin, np.floor(low / step), first), np.where(thin, np.floor(low / step) + 1, last)
         if cells is None or np.prod(last - first + 1) <= cells:
-            return *(step * np.arange(a, b + 1) for a, b in zip(first, last, strict=True)), step
+            break
+    x, z = (step * np.arange(a, b + 1) for a, b in zip(first, last, strict=True))
+    return x, z, step
 
 
-def _reach(original, stages):
+def _reach(original: Section, stages: Sequence[Stage]) -> tuple[np.ndarray, np.ndarray]:
     """First and last column and row that the rock reaches, in samples of the original."""
     if not stages:
         return np.zeros(2), np.array(original.shape[::-1]) - 1.0
     vertices = stages[-1].vertices
-    return np.transpose(_in_samples(original, np.stack([vertices.min(axis=0), vertices.max(axis=0)])))
+    low, high = np.transpose(_in_samples(original, np.stack([vertices.min(axis=0), vertices.max(axis=0)])))
+    return low, high
 
 
-def _origins(original, stages, x, z):
-    """Where each node of a lattice comes from, in samples of the original: columns and rows, of its shape."""
+def _origins(original: Section, stages: Sequence[Stage], x: np.ndarray, z: np.ndarray) -> list[np.ndarray]:
+    """Columns and rows of the original that the nodes of a lattice come from, of the lattice's shape."""
     scale = original.metres
-    places = (
+    points = (
         stages[-1]
         .map.inverse_on_grid((original.x0 + original.dx * x) * scale[0], (original.z0 + original.dz * z) * scale[1])
         .reshape(-1, 2)
     )
     for stage in reversed(stages[:-1]):
-        places = stage.map.inverse(places)
-    return [line.reshape(len(z), len(x)) for line in _in_samples(original, places)]
+        points = stage.map.inverse(points)
+    return [index.reshape(len(z), len(x)) for index in _in_samples(original, points)]
 
 
-def _in_samples(original, places):
-    """Columns and rows of places in the rock, counted in samples of the original."""
+def _in_samples(original: Section, points: np.ndarray) -> list[np.ndarray]:
+    """Columns and rows of points in the rock, counted in samples of the original."""
     first, step = np.array([original.x0, original.z0]), np.array([original.dx, original.dz])
-    return [places[:, k] / (original.metres[k] * step[k]) - first[k] / step[k] for k in (0, 1)]
+    return [points[:, k] / (original.metres[k] * step[k]) - first[k] / step[k] for k in (0, 1)]

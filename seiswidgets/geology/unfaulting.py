@@ -2,6 +2,7 @@
 
 import time
 from collections import deque
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -11,31 +12,25 @@ from shapely import LineString
 from seiswidgets.core.contact import Contact, contacts
 from seiswidgets.core.mesh import Cut, Mesh, edge_keys
 from seiswidgets.core.point_location import triangle_at
-from seiswidgets.core.rigid import rigid_blocks
-from seiswidgets.core.seams import welded
+from seiswidgets.core.rigid import nearest_rigid, rigid_blocks
+from seiswidgets.core.seams import weld_seams
+from seiswidgets.core.term import Term
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along
-from seiswidgets.errors import PickError
+from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import CLOSE, EDGES, crossings, fault_lines, passing_through, with_points
+from seiswidgets.geology.fault_lines import CLOSE, EDGES, fault_crossings, fault_lines, insert_points, route_through
+from seiswidgets.geology.observations import observe_slip
 from seiswidgets.geology.segments import horizon_segments
-from seiswidgets.geology.slip_report import slip_report
-from seiswidgets.geology.solve import (
-    GAUSS_NEWTON,
-    Options,
-    nearest_rigid,
-    reusable_setup,
-    solved,
-    vertex_masses,
-    warm_start,
-)
-from seiswidgets.geology.stage import Stage, staged
+from seiswidgets.geology.solve import GAUSS_NEWTON, SolverOptions, minimise, reusable_setup, warm_start
+from seiswidgets.geology.stage import Outcome, Stage
+from seiswidgets.geology.weights import Weights
 
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """A section cut into blocks, and what is known of their slip.
+    """A section cut into blocks, and the picks in its mesh.
 
     Attributes
     ----------
@@ -45,11 +40,11 @@ class Blocks:
     network : PickNetwork
     cutoffs : list of CutOffPair
     stitches : array, shape (c, 2)
-        For each of the cut-offs its vertex in the hanging wall and in the footwall.
+        The vertices of each pair of cut-offs, in the hanging wall and in the footwall.
     beds : dict of str to list of array, shape (k, 2)
-        The edges of each part of each horizon.
+        The edges of each segment of each horizon.
     fingerprint : tuple
-        What they were made for.
+        Everything that shaped the mesh.
     """
 
     cut: Cut
@@ -67,10 +62,10 @@ class Blocks:
 
     @property
     def reach(self) -> float:
-        """What multiplies the weight of a stitch: the root of the number of edges along a fault, on average.
+        """Factor of the weight of a stitch: the root of the average number of edges along a fault.
 
-        A stitch is one vertex, but has to move the whole side of a fault. So it counts for as many as the contact
-        does there, and cut-offs meet as well on a fine mesh as on a coarse one.
+        A stitch is one vertex, but has to move the whole side of a fault. With this factor it counts for as many as
+        the contact has there, and cut-offs meet as well on a fine mesh as on a coarse one.
         """
         return float(np.sqrt(np.mean([sides.shape[1] for sides in self.sides.values()])))
 
@@ -81,8 +76,14 @@ class Blocks:
         return {name: rows[[pair.fault == name for pair in self.cutoffs]] for name in self.network.faults}
 
 
-def unfaulted(domain: RestorationDomain, faults: dict, horizons: dict, fixed, options: Options) -> Stage:
-    """The stage that undoes the slip on some faults.
+def unfault_stage(
+    domain: RestorationDomain,
+    faults: Mapping[str, np.ndarray],
+    horizons: Mapping[str, Sequence[LineString]],
+    fixed: np.ndarray | None,
+    options: SolverOptions,
+) -> Stage:
+    """Undo the slip on some faults.
 
     Parameters
     ----------
@@ -91,115 +92,137 @@ def unfaulted(domain: RestorationDomain, faults: dict, horizons: dict, fixed, op
     horizons : dict of str to list of LineString
     fixed : array, shape (2,), or None
         A point in the block that stays.
-    options : Options
+    options : SolverOptions
     """
     began = time.perf_counter()
     fingerprint = domain.fingerprint({name: [LineString(points)] for name, points in faults.items()}, horizons)
-    blocks = reusable_setup(options.start, fingerprint) or _blocks(domain, faults, horizons, fingerprint)
+    blocks = reusable_setup(options.start, Blocks, fingerprint) or _mesh_blocks(domain, faults, horizons, fingerprint)
     mesh, free = blocks.mesh, _free(blocks.mesh, fixed, domain)
     terms = _terms(blocks, options.weights)
     start = warm_start(mesh, free, options.start)
-    if start is None:
-        slid = options.solver == GAUSS_NEWTON
-        start = _slid_together(mesh, blocks.stitches, free, terms) if slid else mesh.vertices  # the paper's own start
+    if start is None:  # the paper starts its own solver from the unmoved mesh
+        start = _slide_blocks(mesh, blocks.stitches, free, terms) if options.solver == GAUSS_NEWTON else mesh.vertices
     adrift = bool(free.all())
-    solution = solved(mesh, terms, start, free, domain.spacing, options, domain.where, adrift)
+    solution = minimise(mesh, terms, start, free, domain, options, adrift=adrift)
     vertices = solution.vertices
     if adrift:
-        vertices = nearest_rigid(mesh.vertices, vertices, vertex_masses(mesh))
-    whole, vertices = welded(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
-    seconds, achieved = time.perf_counter() - began, partial(slip_report, blocks, solution, domain)
-    picks, lines = tuple(blocks.network.faults), tuple(blocks.network.faults.values())
-    return staged("unfault", picks, domain, whole, vertices, solution, options.solver, seconds, blocks, achieved, lines)
+        vertices = nearest_rigid(mesh.vertices, vertices, mesh.vertex_areas)
+    welded, vertices = weld_seams(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
+    observe = partial(observe_slip, blocks, solution, domain)
+    faults_drawn = blocks.network.faults
+    outcome = Outcome(tuple(faults_drawn), solution, options.solver, time.perf_counter() - began, observe)
+    return Stage("unfault", welded, vertices, tuple(faults_drawn.values()), domain, outcome, blocks)
 
 
-def _blocks(domain, faults, horizons, fingerprint):
+def _mesh_blocks(
+    domain: RestorationDomain,
+    faults: Mapping[str, np.ndarray],
+    horizons: Mapping[str, Sequence[LineString]],
+    fingerprint: tuple,
+) -> Blocks:
     network = _network(fault_lines(faults, domain), horizons, domain)
     cutoffs = network.cutoffs()
-    lines = {name: _meshed_line(name, line, network, domain) for name, line in network.faults.items()}
-    beds = {name: [domain.simplified(part.line) for part in horizon] for name, horizon in network.horizons.items()}
-    whole = domain.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
+    lines = {name: _meshed_line(line, network.ends_at(name), domain) for name, line in network.faults.items()}
+    bed_lines = {
+        name: [domain.simplify(segment.line) for segment in segments] for name, segments in network.horizons.items()
+    }
+    whole = domain.mesh([*lines.values(), *(line for bed in bed_lines.values() for line in bed)])
     edges = {name: _inner_edges(whole, line, name, domain) for name, line in lines.items()}
-    slipped = np.concatenate(list(edges.values()))
-    cut = whole.cut(slipped)
+    cut_edges = np.concatenate(list(edges.values()))
+    cut = whole.cut(cut_edges)
     beds = {
-        name: [cut.along(edges_along(whole, line, domain.spacing, without=slipped)) for line in bed]
-        for name, bed in beds.items()
+        name: [cut.along(edges_along(whole, line, domain.spacing, without=cut_edges)) for line in bed]
+        for name, bed in bed_lines.items()
     }
     sides = {name: cut.sides(along) for name, along in edges.items()}
-    _check_meshed(cutoffs, beds, network, domain)
+    _check_meshed(cutoffs, beds, network)
     return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, fingerprint)
 
 
-def _network(drawn, horizons, domain):
-    """Faults and horizons matched with each other, the faults without drawn points that lie close to a cut-off."""
-    network = _matched(drawn, horizons, domain)
-    settled = {
-        name: passing_through(line, network.ends_at(name), crossings(name, drawn), CLOSE * domain.spacing)
+def _network(
+    drawn: dict[str, LineString], horizons: Mapping[str, Sequence[LineString]], domain: RestorationDomain
+) -> PickNetwork:
+    """Match faults and horizons, without the drawn points of faults that lie close to a cut-off."""
+    network = _match(drawn, horizons, domain)
+    routed = {
+        name: route_through(line, network.ends_at(name), fault_crossings(name, drawn), CLOSE * domain.spacing)
         for name, line in drawn.items()
     }
-    return network if settled == drawn else _matched(settled, horizons, domain)
+    return network if routed == drawn else _match(routed, horizons, domain)
 
 
-def _matched(drawn, horizons, domain):
+def _match(
+    drawn: dict[str, LineString], horizons: Mapping[str, Sequence[LineString]], domain: RestorationDomain
+) -> PickNetwork:
     faults = list(drawn.values())
     segments = {name: horizon_segments(pieces, faults) for name, pieces in horizons.items()}
-    return PickNetwork(drawn, segments, domain.where)
+    return PickNetwork(drawn, segments, domain.where, domain.position)
 
 
-def _meshed_line(name, line, network, domain):
-    """A fault with its cut-offs among its points, in edges short enough to slip along."""
-    line = with_points(line, network.ends_at(name))
+def _meshed_line(line: LineString, cutoffs: Sequence[tuple[float, float]], domain: RestorationDomain) -> LineString:
+    """Divide a fault, its cut-offs included, into edges short enough to slip along."""
+    line = insert_points(line, cutoffs)
     return line.segmentize(min(domain.spacing, line.length / EDGES))
 
 
-def _inner_edges(mesh, line, name, domain):
+def _inner_edges(mesh: Mesh, line: LineString, name: str, domain: RestorationDomain) -> np.ndarray:
     along = edges_along(mesh, line, domain.spacing)
     inner = ~np.isin(edge_keys(along), edge_keys(mesh.boundary))
     if not inner.any():
+        point = line.coords[0]
         raise PickError(
-            f"fault {name!r} runs along the border of the section near {domain.where(line.coords[0])}, where there is "
-            "nothing to slide; draw it inside"
+            f"fault {name!r} runs along the border of the section near {domain.where(point)}, where there is nothing "
+            "to slide; draw it inside",
+            pick=name,
+            where=domain.position(point),
         )
     return along[inner]
 
 
-def _check_meshed(cutoffs, beds, network, domain):
+def _check_meshed(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]], network: PickNetwork) -> None:
     for pair in cutoffs:
-        for index, place in (pair.hanging_wall, pair.footwall):
-            part = network.horizons[pair.horizon][index]
+        for index, which in (pair.hanging_wall, pair.footwall):
+            segment = network.horizons[pair.horizon][index]
             if not len(beds[pair.horizon][index]):
+                point = segment.end_point(which)
                 raise PickError(
-                    f"piece {part.number} of horizon {pair.horizon!r} is only {part.line.length:.2g} m long at fault "
-                    f"{pair.fault!r}, near {domain.where(part.ends[place].point)}; draw more of it, or choose a finer "
-                    "spacing"
+                    f"piece {segment.piece} of horizon {pair.horizon!r} is only {segment.line.length:.2g} m long at "
+                    f"fault {pair.fault!r}, near {network.where(point)}; draw more of it, or reduce ",
+                    Keyword("spacing"),
+                    pick=pair.horizon,
+                    where=network.position(point),
                 )
 
 
-def _stitches(cutoffs, beds):
+def _stitches(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]]) -> np.ndarray:
     """The vertices of each pair of cut-offs, hanging wall first; shape (c, 2)."""
     ends = [
-        [beds[pair.horizon][index][place, place] for index, place in (pair.hanging_wall, pair.footwall)]
+        [beds[pair.horizon][index][which, which] for index, which in (pair.hanging_wall, pair.footwall)]
         for pair in cutoffs
     ]
     return np.array(ends, dtype=int)
 
 
-def _free(mesh, fixed, domain):
-    """Which vertices may move: all, or all but those of the block that holds a point."""
+def _free(mesh: Mesh, fixed: np.ndarray | None, domain: RestorationDomain) -> np.ndarray:
+    """The vertices that may move: all, or all but those of the block that holds a point."""
     if fixed is None:
         return np.ones(len(mesh.vertices), bool)
     triangle = triangle_at(mesh.vertices, mesh.triangles, fixed)
     if triangle < 0:
-        raise PickError(f"no rock lies at fixed, {domain.where(fixed)}; choose a point inside the block to hold")
+        raise PickError(
+            f"no rock lies at fixed, {domain.where(fixed)}; choose a point inside the block to hold",
+            where=domain.position(fixed),
+        )
     if mesh.blocks.max() == 0:
         raise PickError(
-            "fixed is given, but the faults cut no block off: all of them end inside the section; leave fixed out"
+            "fixed is given, but the faults cut no block off: all of them end inside the section; leave out ",
+            Keyword("fixed"),
+            where=domain.position(fixed),
         )
-    return mesh.blocks != mesh.blocks[mesh.triangles[triangle, 0]]
+    return np.asarray(mesh.blocks != mesh.blocks[mesh.triangles[triangle, 0]])
 
 
-def _terms(blocks, weights):
+def _terms(blocks: Blocks, weights: Weights) -> list[Term]:
     mesh = blocks.mesh
     pairs = blocks.stitches[blocks.stitches[:, 0] != blocks.stitches[:, 1]]  # at a blind tip both are one
     return [
@@ -216,13 +239,13 @@ def _terms(blocks, weights):
     ]
 
 
-def _slid_together(mesh, stitches, free, terms):
-    """Where the solver starts: blocks moved as wholes so that their cut-offs meet and their sides touch.
+def _slide_blocks(mesh: Mesh, stitches: np.ndarray, free: np.ndarray, terms: Sequence[Term]) -> np.ndarray:
+    """Move blocks rigidly so that their cut-offs meet and their sides touch, as a start for the solver.
 
     They are shifted one after the other, from the block that stays (or the largest), then moved and turned together.
     """
     label = mesh.blocks
-    root = label[~free][0] if not free.all() else np.bincount(label, vertex_masses(mesh)).argmax()
+    root = label[~free][0] if not free.all() else np.bincount(label, mesh.vertex_areas).argmax()
     shift = np.full((label.max() + 1, 2), np.nan)
     shift[root] = 0
     queue = deque([root])
@@ -238,6 +261,6 @@ def _slid_together(mesh, stitches, free, terms):
     return rigid_blocks(label, between, mesh.vertices + np.nan_to_num(shift)[label], label != root)
 
 
-def _still_side_last(sides, free):
-    """The two sides of a seam, first the one whose vertices may be laid on the other."""
+def _still_side_last(sides: np.ndarray, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The two sides of a seam, first the one whose vertices may be moved onto the other."""
     return (sides[1], sides[0]) if not free[sides[0]].all() else (sides[0], sides[1])

@@ -1,34 +1,35 @@
-"""What users ask a restoration for, checked at the door: numbers, points and picks."""
+"""Validation of what users pass in: numbers, points, picks and keywords."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from seiswidgets.errors import PickError, SettingError
-from seiswidgets.geology.picks import Fault, Horizon
+from seiswidgets.errors import Keyword, PickError, SettingError
+from seiswidgets.geology.picks import Fault, Horizon, Pick
 from seiswidgets.geology.section import Section
 
 ROUNDING = 1e-6  # of a trace or a sample
 
 
-def finite_number(name: str, value) -> float:
-    """A finite number, or a SettingError that names it."""
+def finite_number(name: str, value: object) -> float:
+    """Validate a finite number; a SettingError names it."""
     try:
-        asked = float(value)
+        number = float(value)  # type: ignore[arg-type]  # what cannot be converted raises
     except (TypeError, ValueError):
-        asked = np.nan
-    if not np.isfinite(asked):
+        number = np.nan
+    if not np.isfinite(number):
         raise SettingError(f"{name} must be a finite number, but is {value!r}")
-    return asked
+    return number
 
 
-def whole_number(name: str, value, least: int) -> int:
-    """A whole number of so much at least, or a SettingError that names it."""
+def whole_number(name: str, value: object, least: int) -> int:
+    """Validate an integer >= ``least``; a SettingError names it."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
         raise SettingError(f"{name} must be a whole number of {least} or more, but is {value!r}")
     return int(value)
 
 
-def as_points(rows) -> np.ndarray:
-    """Points as an array of shape (n, 2)."""
+def as_points(rows: ArrayLike) -> np.ndarray:
+    """Convert rows (x, z) to an array of shape (n, 2)."""
     try:
         array = np.asarray(rows, float)
     except (TypeError, ValueError):
@@ -38,7 +39,7 @@ def as_points(rows) -> np.ndarray:
     return array.reshape(-1, 2)
 
 
-def held_point(value) -> tuple[float, float]:
+def held_point(value: ArrayLike) -> tuple[float, float]:
     """Validate a point (x, z) whose block is held."""
     try:
         point = np.asarray(value, float)
@@ -49,18 +50,24 @@ def held_point(value) -> tuple[float, float]:
     return float(point[0]), float(point[1])
 
 
-def named_picks(given, kind: type, word: str) -> dict:
-    """Faults or horizons by name, from one or several; a name that comes again gets a number behind it."""
-    given = [given] if isinstance(given, Fault | Horizon) else given
-    try:
-        given = list(given)
-    except TypeError:
-        given = [given]
-    named = {}
-    for pick in given:
+def named_picks(picks: Pick | Iterable[Pick], kind: type[Pick], word: str) -> dict[str, Pick]:
+    """Faults or horizons by name, from one or several; a repeated name gets a number appended.
+
+    Parameters
+    ----------
+    picks : Fault, Horizon, or several
+    kind : type
+        Fault or Horizon.
+    word : str
+        Name of the kind in errors.
+    """
+    if isinstance(picks, Fault | Horizon) or not isinstance(picks, Iterable):
+        picks = [picks]
+    named: dict[str, Pick] = {}
+    for pick in picks:
         if not isinstance(pick, kind):
             raise PickError(
-                f"a {word} is asked for, a seiswidgets.{kind.__name__}, but got a {type(pick).__name__}: {pick!r}"
+                f"expected a {word}, a seiswidgets.{kind.__name__}, but got a {type(pick).__name__}: {pick!r}"
             )
         name, count = pick.name, 2
         while name in named:
@@ -69,33 +76,44 @@ def named_picks(given, kind: type, word: str) -> dict:
     return named
 
 
-def rock_points(section: Section, drawn, what: str) -> np.ndarray:
-    """Points of a section in metres of rock; what lies outside by no more than rounding is put on the border.
+def rock_points(section: Section, points: np.ndarray, what: str, pick: str | None = None) -> np.ndarray:
+    """Convert points of a section to metres of rock; points outside by no more than rounding move onto the border.
+
+    Parameters
+    ----------
+    section : Section
+    points : array, shape (n, 2)
+    what : str
+        Name of the line or the point in errors.
+    pick : str, optional
+        Name of the fault or horizon concerned.
 
     Raises
     ------
     PickError
-        If a point lies outside; it says which, where, and how far the section reaches.
+        If a point lies outside.
     """
     x_min, x_max, z_min, z_max = section.extent
-    clipped = np.clip(drawn, (x_min, z_min), (x_max, z_max))
-    outside = ~(np.abs(drawn - clipped) <= ROUNDING * np.array([section.dx, section.dz])).all(axis=1)
+    clipped = np.clip(points, (x_min, z_min), (x_max, z_max))
+    outside = ~(np.abs(points - clipped) <= ROUNDING * np.array([section.dx, section.dz])).all(axis=1)
     if outside.any():
-        bad = int(np.argmax(outside))
-        which = what if len(drawn) == 1 else f"point {bad + 1} of {what}"
+        index = int(np.argmax(outside))
+        x, z = points[index].tolist()
         raise PickError(
-            f"{which} lies outside the section, at ({drawn[bad, 0]:.6g} {section.x_unit}, "
-            f"{drawn[bad, 1]:.6g} {section.z_unit}); the section reaches from x={x_min:g} to {x_max:g} "
-            f"{section.x_unit} and from z={z_min:g} to {z_max:g} {section.z_unit}"
+            f"{what if len(points) == 1 else f'point {index + 1} of {what}'} lies outside the section, at "
+            f"({x:.6g} {section.x_unit}, {z:.6g} {section.z_unit}); the section reaches from x={x_min:g} to {x_max:g} "
+            f"{section.x_unit} and from z={z_min:g} to {z_max:g} {section.z_unit}",
+            pick=pick,
+            where=(x, z),
         )
     return section.to_rock(clipped)
 
 
-def checked_kind(value, kind: type, name: str):
-    """SettingError if an argument is not of the class that it must be of."""
+def checked_kind(value: object, kind: type, name: str) -> None:
+    """Raise a SettingError if an argument is not an instance of a class."""
     if not isinstance(value, kind):
-        raise SettingError(f"{name} must be {_a(kind)}, but is {_a(type(value))}")
+        raise SettingError(f"{name} must be {_with_article(kind)}, but is {_with_article(type(value))}")
 
 
-def _a(kind):
+def _with_article(kind: type) -> str:
     return f"{'an' if kind.__name__[0] in 'AEIOUaeiou' else 'a'} {kind.__name__}"

@@ -1,7 +1,6 @@
 """The weights of the energy's terms."""
 
 from dataclasses import dataclass, fields
-from numbers import Real
 
 import numpy as np
 
@@ -10,7 +9,7 @@ from seiswidgets.errors import SettingError
 
 @dataclass(frozen=True)
 class Weights:
-    """What multiplies the rows of each term, as in the paper's eq. 14; its section 4 gives the values set here.
+    """Factors of the rows of each term, as in the paper's eq. 14; the defaults are from its section 4.
 
     Parameters
     ----------
@@ -38,10 +37,11 @@ class Weights:
     flatten: float = 10.0
     length: float = 10.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         for name, value in values.items():
-            if not (isinstance(value, Real) and np.isfinite(value) and value >= 0):
+            is_real = isinstance(value, float | int | np.floating | np.integer)
+            if not (is_real and np.isfinite(value) and value >= 0):
                 raise SettingError(f"weight {name} must be a number of 0 or more, but is {value!r}")
         if not any(values.values()):
-            raise SettingError("all weights are 0, so that nothing would be asked for; set at least one above 0")
+            raise SettingError("all weights are 0, so nothing would be restored; set at least one above 0")

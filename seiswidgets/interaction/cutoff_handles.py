@@ -84,9 +84,9 @@ def parted(drawing: Drawing, section: Section, mark: CutOffHandle) -> tuple[Draw
     pick = drawing.pick(HORIZON, mark.horizon)
     found = _parts(drawing, section, pick)
     part = found[mark.part]
-    piece = drawing.valid_pieces(pick)[part.number - 1]
+    piece = drawing.valid_pieces(pick)[part.piece - 1]
     drawn = dict(zip(map(tuple, section.to_rock(pick.pieces[piece]).tolist()), pick.pieces[piece], strict=True))
-    same = [other for other in found if other.number == part.number]
+    same = [other for other in found if other.piece == part.piece]
     lines = [_vertices(other, mark.place if other is part else None, drawn, section) for other in same]
     number = next(number for number, other in enumerate(same) if other is part)
     pieces = [*pick.pieces[:piece], *lines, *pick.pieces[piece + 1 :]]

@@ -32,7 +32,7 @@ def flat(term):
 
 
 def largest(term, vertices):
-    return np.abs(term.at(vertices).residual(vertices)).max()
+    return np.abs(term.with_contacts(vertices).residual(vertices)).max()
 
 
 STRAIGHT = shapely.LineString(np.outer(np.linspace(0, 1, 9) ** 1.5, [300, 600]))
@@ -43,7 +43,7 @@ def test_sliding_along_a_straight_fault_costs_nothing(share, turn):
     rest, terms = two_sided(STRAIGHT)
     vertices = rotated(moved(rest, lambda points: points + np.multiply(share, [300, 600])), turn)
     for term in terms:
-        np.testing.assert_allclose(term.at(vertices).residual(vertices), 0, atol=1e-10)
+        np.testing.assert_allclose(term.with_contacts(vertices).residual(vertices), 0, atol=1e-10)
 
 
 @pytest.mark.parametrize("distance", [-40.0, 5.0])
@@ -52,7 +52,7 @@ def test_the_residual_is_the_distance(distance):
     normal = np.array([-2.0, 1.0]) / np.sqrt(5)  # from x towards z: the positive side
     vertices = moved(rest, lambda points: points + distance * normal)
     for term, sign in zip(terms, (1, -1), strict=True):
-        held = replace(term, weight=3.0).at(vertices)
+        held = replace(term, weight=3.0).with_contacts(vertices)
         np.testing.assert_allclose(held.residual(vertices), sign * 3 * distance, atol=1e-9)
 
 
@@ -120,7 +120,7 @@ def test_beyond_the_end_nothing_is_known():
     half, ahead = len(rest) // 2, STRAIGHT.interpolate(0.5, normalized=True).coords[0]
     vertices = moved(rest, lambda points: points + ahead)
     along = np.linalg.norm(vertices[:half], axis=1) / STRAIGHT.length
-    held = term.at(vertices)
+    held = term.with_contacts(vertices)
     np.testing.assert_array_equal(held.partner >= 0, along <= 1 + 1e-9)
     assert len(held.residual(vertices)) == (along <= 1 + 1e-9).sum() < half
     np.testing.assert_array_equal(held.target(vertices)[held.partner < 0], vertices[:half][held.partner < 0])
@@ -129,7 +129,7 @@ def test_beyond_the_end_nothing_is_known():
 def test_all_silent_is_an_empty_term():
     rest, (term, _) = two_sided(STRAIGHT)
     vertices = moved(rest, lambda points: np.add(points, (300, 601)))
-    held = term.at(vertices)
+    held = term.with_contacts(vertices)
     assert held.residual(vertices).shape == (0,)
     assert held.jacobian(vertices).shape == (0, vertices.size)
 
@@ -139,7 +139,7 @@ def test_the_tips_of_a_blind_fault_are_in_no_contact():
     tips = {sides[0, 0, 0], sides[0, -1, 1]}
     for term, side in zip(contacts(cut.mesh, sides, BLIND, 1.0, "contact"), sides, strict=True):
         assert {*term.points} == {*side.ravel()} - tips
-        assert (term.at(cut.mesh.vertices).partner >= 0).all()
+        assert (term.with_contacts(cut.mesh.vertices).partner >= 0).all()
 
 
 def test_both_sides_see_each_other():
@@ -153,13 +153,13 @@ def test_both_sides_see_each_other():
 def test_a_partner_is_kept_a_little_beyond_its_end(way, partner):
     line = shapely.LineString([(0, 0), (100, 0), (200, 0)])
     rest, (term, _) = two_sided(line)
-    held = term.at(moved(rest, lambda points: np.add(points, (50, 0))))  # the first vertex is over the first segment
-    assert held.partner[0] == 0
-    later = held.at(moved(rest, lambda points: np.add(points, (100 * way, 0))))
+    held = term.with_contacts(moved(rest, lambda points: np.add(points, (50, 0))))
+    assert held.partner[0] == 0  # the first vertex is over the first segment
+    later = held.with_contacts(moved(rest, lambda points: np.add(points, (100 * way, 0))))
     assert later.partner[0] == partner
 
 
 def test_without_a_partner_the_nearest_is_taken():
     line = shapely.LineString([(0, 0), (100, 0), (200, 0)])
     rest, (term, _) = two_sided(line)
-    assert term.at(moved(rest, lambda points: np.add(points, (105, 0)))).partner[0] == 1
+    assert term.with_contacts(moved(rest, lambda points: np.add(points, (105, 0)))).partner[0] == 1

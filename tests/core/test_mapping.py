@@ -6,7 +6,7 @@ from scipy.spatial import Delaunay
 from seiswidgets.core.mapping import PiecewiseAffineMap, triangles_at_grid
 from seiswidgets.core.mesh import triangle_areas
 from seiswidgets.core.point_location import TriangleFinder, triangle_at
-from seiswidgets.core.resampling import resampled
+from seiswidgets.core.resampling import resample
 from seiswidgets.core.triangulation import edges_along, triangulate
 
 BOX = shapely.box(0, 0, 120, 80)
@@ -244,10 +244,10 @@ def test_a_picture_carried_there_and_sampled_back_is_the_picture(mesh):
     left, top = np.floor(there.target.min(axis=0))
     right, bottom = np.ceil(there.target.max(axis=0))
     source = there.inverse_on_grid(np.arange(left, right + 1), np.arange(top, bottom + 1))
-    carried = resampled(picture, source[..., 0], source[..., 1], 3)
+    carried = resample(picture, source[..., 0], source[..., 1], 3)
     points = rng.uniform([10, 10], [110, 70], (2000, 2))
     column, row = (there.forward(points) - [left, top]).T
-    seen = resampled(carried, column, row, 3)
+    seen = resample(carried, column, row, 3)
     np.testing.assert_allclose(seen, np.sin(points[:, 0] / 9) * np.cos(points[:, 1] / 7), atol=0.02)
 
 

@@ -47,7 +47,7 @@ def dense_step(terms, free, vertices, damping):
     matrix = jacobian.T @ jacobian
     weight = damping * np.median(np.diag(matrix)[unknown])
     for term in terms:
-        if hasattr(term, "curvature"):
+        if term.curvature(vertices):
             matrix += second_derivatives(term, vertices)
     step = np.zeros(vertices.size)
     matrix = matrix[np.ix_(unknown, unknown)] + weight * np.eye(unknown.sum())
@@ -84,7 +84,7 @@ def test_step_is_newtons(name, held, damping, squeeze, backend, monkeypatch):
     vertices = perturbed(2.0) * [1, squeeze]
     terms = update_contacts(TERMS[name], vertices)
     equations = NormalEquations(terms, both(free), vertices)
-    equations.at(terms, vertices, residuals(terms, vertices))
+    equations.update(terms, vertices, residuals(terms, vertices))
     step = equations.step(damping, bending=1.0)
     expected = dense_step(terms, free, vertices, damping)
     np.testing.assert_allclose(step, expected, atol=1e-6 * np.abs(expected).max())
@@ -97,7 +97,7 @@ def test_the_same_equations_serve_at_one_place_after_another():
     for seed, start in enumerate([REST, SLID, REST, perturbed(2.0)]):
         vertices = start + np.random.default_rng(seed).standard_normal(start.shape)
         terms = update_contacts(TERMS["with contacts"], vertices)
-        equations.at(terms, vertices, residuals(terms, vertices))
+        equations.update(terms, vertices, residuals(terms, vertices))
         expected = dense_step(terms, free, vertices, 1e-3)
         np.testing.assert_allclose(equations.step(1e-3, bending=1.0), expected, atol=1e-6 * np.abs(expected).max())
 
@@ -108,7 +108,7 @@ def test_the_pattern_is_analysed_anew_only_for_a_new_place():
     equations = NormalEquations(at_rest, both(free), REST)
     counts = []
     for terms in (at_rest, at_rest, slid, slid, at_rest):
-        equations.at(terms, REST, residuals(terms, REST))
+        equations.update(terms, REST, residuals(terms, REST))
         equations.step(1e-6)
         counts.append(equations.analyses)
     assert counts == [2, 2, 3, 3, 3]
@@ -118,7 +118,7 @@ def test_the_pattern_is_analysed_anew_only_for_a_new_place():
 def test_steady_terms_are_analysed_once():
     equations = NormalEquations(STEADY, both(~HELD), REST)
     for seed in range(3):
-        equations.at(STEADY, perturbed(5.0, seed), residuals(STEADY, perturbed(5.0, seed)))
+        equations.update(STEADY, perturbed(5.0, seed), residuals(STEADY, perturbed(5.0, seed)))
         equations.step(1e-6)
     assert equations.analyses == 1
 
@@ -129,7 +129,7 @@ def test_a_contact_without_any_partner_takes_no_part():
     steps = []
     for terms in (STEADY, STEADY + silent):
         equations = NormalEquations(terms, both(~HELD), vertices)
-        equations.at(terms, vertices, residuals(terms, vertices))
+        equations.update(terms, vertices, residuals(terms, vertices))
         steps.append(equations.step(1e-3))
     np.testing.assert_allclose(*steps, atol=1e-12)
 
@@ -137,7 +137,7 @@ def test_a_contact_without_any_partner_takes_no_part():
 def test_without_what_is_shortened_the_matrix_is_positive_definite():
     squeezed = REST * [0.5, 0.5]
     equations = NormalEquations(STEADY, both(~HELD), squeezed)
-    equations.at(STEADY, squeezed, residuals(STEADY, squeezed))
+    equations.update(STEADY, squeezed, residuals(STEADY, squeezed))
     with pytest.raises(cholesky.NotPositiveDefinite):
         equations.step(1e-9, bending=1.0)
     assert np.isfinite(equations.step(1e-9, bending=0.0)).all()
@@ -146,6 +146,6 @@ def test_without_what_is_shortened_the_matrix_is_positive_definite():
 def test_damping_shortens_the_step():
     vertices = perturbed(10.0)
     equations = NormalEquations(STEADY, both(~HELD), vertices)
-    equations.at(STEADY, vertices, residuals(STEADY, vertices))
+    equations.update(STEADY, vertices, residuals(STEADY, vertices))
     lengths = [np.linalg.norm(equations.step(damping)) for damping in (1e-6, 1e-2, 1.0, 1e3)]
     assert (np.diff(lengths) < 0).all()

@@ -4,7 +4,7 @@ import shapely
 
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import triangle_areas
-from seiswidgets.core.seams import outline, welded
+from seiswidgets.core.seams import outline, weld_seams
 from tests.core.meshes import BOX, PLANAR, arc, cut_along, rotated
 
 CENTRE = (1500.0, -300.0)  # of the arcs
@@ -28,7 +28,7 @@ def case(request):
 
 def test_what_is_not_moved_stays_as_it_is():
     mesh, vertices, sides, _ = slid(PLANAR, lambda points: points)
-    whole, moved = welded(mesh, vertices, [sides])
+    whole, moved = weld_seams(mesh, vertices, [sides])
     np.testing.assert_array_equal(whole.triangles.shape, mesh.triangles.shape)
     np.testing.assert_allclose(moved, vertices, atol=1e-9)
 
@@ -36,7 +36,7 @@ def test_what_is_not_moved_stays_as_it_is():
 def test_the_master_does_not_move_and_the_slave_lies_on_it(case):
     mesh, vertices, sides, _ = case
     slave, master = sides
-    _, moved = welded(mesh, vertices, [(slave, master)])
+    _, moved = weld_seams(mesh, vertices, [(slave, master)])
     np.testing.assert_array_equal(moved[np.unique(master)], vertices[np.unique(master)])
     seam = shapely.MultiLineString(list(vertices[master]))
     span = shapely.LineString(vertices[np.append(master[:, 0], master[-1, 1])])
@@ -48,7 +48,7 @@ def test_the_master_does_not_move_and_the_slave_lies_on_it(case):
 
 def test_nothing_turns_over_and_no_area_is_lost(case):
     mesh, vertices, sides, _ = case
-    whole, moved = welded(mesh, vertices, [sides])
+    whole, moved = weld_seams(mesh, vertices, [sides])
     assert triangle_areas(moved, whole.triangles).min() > 0
     assert (whole.areas > 0).all()
     assert whole.areas.sum() == pytest.approx(mesh.areas.sum(), rel=1e-12)
@@ -57,7 +57,7 @@ def test_nothing_turns_over_and_no_area_is_lost(case):
 def test_the_map_is_one_to_one_along_the_seam(case):
     """Before, points beside the seam fall into slivers of gap or overlap; afterwards all go there and back."""
     mesh, vertices, sides, _ = case
-    whole, moved = welded(mesh, vertices, [sides])
+    whole, moved = weld_seams(mesh, vertices, [sides])
     rng = np.random.default_rng(0)
     edges = mesh.vertices[sides[0]]
     beside = edges[:, :1] + rng.uniform(0, 1, (len(edges), 400, 1)) * (edges[:, 1:] - edges[:, :1])
@@ -69,7 +69,7 @@ def test_the_map_is_one_to_one_along_the_seam(case):
 
 def test_the_outline_is_that_of_the_rock(case):
     mesh, vertices, sides, _ = case
-    whole, moved = welded(mesh, vertices, [sides])
+    whole, moved = weld_seams(mesh, vertices, [sides])
     rock = outline(whole, moved, closing=0.5)
     assert rock.geom_type == "Polygon"
     assert rock.area == pytest.approx(triangle_areas(moved, whole.triangles).sum(), rel=1e-6)

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 
 import seiswidgets as sw
-from seiswidgets.geology.solve import nearest_rigid
+from seiswidgets.core.rigid import nearest_rigid
 
 
 def restored_in_two_stages(case, **choices):

@@ -8,6 +8,7 @@ import pytest
 from shapely import LineString
 
 import seiswidgets as sw
+from seiswidgets.errors import Keyword
 
 AMPLITUDE = np.random.default_rng(1).normal(size=(41, 61)).astype(np.float32)
 FLAT = AMPLITUDE[:, :1] * np.ones(61)
@@ -74,12 +75,12 @@ def test_some_nan_amplitudes_are_fine_and_stay():
         ({"x0": np.nan}, "x0 must be a finite number"),
         ({"z_unit": "ms"}, r"two-way time \(z_unit='ms'\) needs velocity=, in m/s"),
         ({"z_unit": "s"}, "needs velocity="),
-        ({"velocity": 2400}, r"in depth \(z_unit='m'\) takes no velocity; leave it out"),
+        ({"velocity": 2400}, r"in depth \(z_unit='m'\) takes no velocity=; leave it out"),
         ({"z_unit": "ms", "velocity": 0}, "velocity must be above 0 m/s"),
         ({"z_unit": "ms", "velocity": -2400}, "velocity must be above 0 m/s"),
         ({"z_unit": "ms", "velocity": np.nan}, "velocity must be a finite number"),
-        ({"name": None}, "name must be a text, but is None"),
-        ({"credit": b"us"}, "credit must be a text, but is b'us'"),
+        ({"name": None}, "name must be text, but is None"),
+        ({"credit": b"us"}, "credit must be text, but is b'us'"),
         ({"x_unit": "feet"}, "x_unit must be one of m, km, ft, but is 'feet'"),
         ({"z_unit": "hours"}, "z_unit must be one of m, km, ft, s, ms, but is 'hours'"),
     ],
@@ -136,8 +137,8 @@ def horizon(*pieces):
 UNFAULTED = {
     "no fault": (([], HORIZON), "there is no fault to unfault"),
     "no horizon": ((FAULT, []), "no horizon ends at fault 'F1'.*give a horizon with a piece on either side"),
-    "a horizon as fault": ((HORIZON, HORIZON), "a fault is asked for, a seiswidgets.Fault, but got a Horizon"),
-    "a fault as horizon": ((FAULT, FAULT), "a horizon is asked for, a seiswidgets.Horizon, but got a Fault"),
+    "a horizon as fault": ((HORIZON, HORIZON), "expected a fault, a seiswidgets.Fault, but got a Horizon"),
+    "a fault as horizon": ((FAULT, FAULT), "expected a horizon, a seiswidgets.Horizon, but got a Fault"),
     "a fault above": (
         (fault((700, -50), (800, 500)), HORIZON),
         r"point 1 of fault 'F2' lies outside the section, at \(700 m, -50 m\); .* x=0 to 1500 m and from z=0 to 1000 m",
@@ -152,12 +153,12 @@ UNFAULTED = {
     ),
     "two close by": (
         ([FAULT, fault((702, 0), (902, 1000))], HORIZON),
-        "faults 'F1' and 'F2' lie on top of each other near x=80. m, z=500 m.*keep one, or part them",
+        "faults 'F1' and 'F2' lie on top of each other near x=80. m, z=500 m.*keep one, or move them apart",
     ),
     "two in part": (([FAULT, fault((700, 0), (800, 500), (1000, 1000))], HORIZON), "'F1' and 'F2' lie on top"),
     "short": (
         (fault((700, 300), (750, 350)), HORIZON),
-        "fault 'F2' near x=700 m, z=300 m is 70.71 m long, no longer than the mesh spacing of 100 m; choose a finer",
+        "fault 'F2' near x=700 m, z=300 m is 70.71 m long, no longer than the mesh spacing of 100 m; reduce spacing=",
     ),
     "one side": (
         (FAULT, horizon(LEFT)),
@@ -166,7 +167,7 @@ UNFAULTED = {
     "the other side": ((FAULT, horizon(RIGHT)), "in its hanging wall near x=800 m, z=500 m, but not in its footwall"),
     "too far": (
         (FAULT, horizon(LEFT, [(1100, 500), (1500, 500)])),
-        "fault 'F1'.*piece 2 ends 300 m away from the fault, .* a fifth of its length at most, 80 m; draw it closer",
+        "fault 'F1'.*piece 2 ends 300 m away from the fault, .* at most a fifth of its length, 80 m; draw it closer",
     ),
     "both too far": (
         (FAULT, horizon([(0, 400), (300, 400)], [(1200, 500), (1500, 500)])),
@@ -228,13 +229,74 @@ def test_picks(start, picks, message):
     raises_and_changes_nothing(start, sw.PickError, message, lambda restoration: restoration.unfault(*picks))
 
 
+BAD_DRAWINGS = {  # picks to unfault, the pick that the error is about, and the position if the text names one
+    "a fault above": ((fault((700, -50), (800, 500)), HORIZON), "F2", (700, -50)),
+    "a horizon beside": ((FAULT, horizon(LEFT, [(800, 500), (1501, 500)])), "H2", (1501, 500)),
+    "two close by": (([FAULT, fault((702, 0), (902, 1000))], HORIZON), "F2", (801, 500)),
+    "short": ((fault((700, 300), (750, 350)), HORIZON), "F2", (700, 300)),
+    "a spike": ((fault((700, 0), (800, 500), (710, 10)), HORIZON), "F2", (800, 500)),
+    "no horizon": (([FAULT], []), "F1", None),
+    "out of reach": ((FAULT, horizon([(0, 400), (300, 400)], [(1200, 500), (1500, 500)])), "F1", None),
+    "one side": ((FAULT, horizon(LEFT)), "H2", (780, 400)),
+    "too far": ((FAULT, horizon(LEFT, [(1100, 500), (1500, 500)])), "H2", (780, 400)),
+    "two on one side": ((FAULT, horizon(LEFT, [(0, 600), (820, 600)], RIGHT)), "H2", (820, 600)),
+    "no block": ((BLIND, BENT, (100, 100)), None, (100, 100)),
+}
+
+
+@pytest.mark.parametrize(("drawing", "pick", "where"), BAD_DRAWINGS.values(), ids=BAD_DRAWINGS)
+def test_an_error_carries_the_pick_and_the_position_that_it_is_about(start, drawing, pick, where):
+    faults, horizons, *fixed = drawing
+    with pytest.raises(sw.PickError, match=pick or "fixed") as raised:
+        start.unfault(faults, horizons, fixed=fixed[0] if fixed else None)
+    assert raised.value.pick == pick
+    assert raised.value.where == (where if where is None else pytest.approx(where, abs=1))
+
+
+def test_positions_of_errors_are_in_the_units_of_a_time_section():
+    with pytest.raises(sw.PickError, match="z=320 ms") as raised:
+        sw.Restoration(TIME, spacing=SPACING).unfault(TIME_FAULT, sw.Horizon(TIMES[0], name="H2"))
+    assert raised.value.where == pytest.approx((780, 320))
+
+
+def test_a_line_that_cannot_be_used_is_named_in_the_error():
+    crossing = [(0, 0), (10, 0), (10, 5), (4, -5)]
+    for draw in (lambda: sw.Fault(crossing, "F3"), lambda: sw.Horizon(LEFT, crossing, name="F3")):
+        with pytest.raises(sw.PickError, match="crosses itself near x=7, z=0") as raised:
+            draw()
+        assert (raised.value.pick, raised.value.where) == ("F3", (7.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("work", "keyword"),
+    [
+        (lambda: sw.Section(AMPLITUDE, dx=1, dz=1, z_unit="ms"), "velocity"),
+        (lambda: sw.Restoration(SECTION, spacing=0.5).flatten(HORIZON), "spacing"),
+        (lambda: sw.Restoration(SECTION, spacing=400).flatten(HORIZON), "spacing"),
+        (lambda: sw.Restoration(SECTION, spacing=SPACING).unfault(fault((700, 300), (750, 350)), HORIZON), "spacing"),
+        (lambda: sw.Restoration(SECTION).unfault(BLIND, BENT, fixed=(100, 100)), "fixed"),
+    ],
+)
+def test_keywords_that_an_error_advises_are_parts_of_its_text(work, keyword):
+    with pytest.raises(sw.SeiswidgetsError, match=f"{keyword}=") as raised:
+        work()
+    assert keyword in [part.name for part in raised.value.text.parts if isinstance(part, Keyword)]
+
+
+@pytest.mark.parametrize("kind", ["unfault", "flatten"])
+def test_a_misspelt_option_is_an_error_that_suggests_the_right_one(start, kind):
+    picks = (FAULT, HORIZON) if kind == "unfault" else (HORIZON,)
+    message = f"{kind} has no keyword max_iteration=; did you mean max_iterations="
+    raises_and_changes_nothing(start, TypeError, message, lambda it: getattr(it, kind)(*picks, max_iteration=3))
+
+
 @pytest.mark.parametrize(("fixed", "message"), FIXED.values(), ids=FIXED)
 def test_fixed(start, fixed, message):
     raises_and_changes_nothing(start, sw.PickError, message, lambda it: it.unfault(FAULT, HORIZON, fixed=fixed))
 
 
 def test_fixed_where_nothing_is_cut_off(start):
-    message = "fixed is given, but the faults cut no block off.*leave fixed out"
+    message = "fixed is given, but the faults cut no block off.*leave out fixed="
     raises_and_changes_nothing(start, sw.PickError, message, lambda it: it.unfault(BLIND, BENT, fixed=(100, 100)))
     assert start.unfault(BLIND, BENT).stages[-1].report.converged
 
@@ -256,8 +318,8 @@ def test_datum(unfaulted, datum, message):
 @pytest.mark.parametrize(
     ("horizon", "message"),
     [
-        (FAULT, "a horizon is asked for, a seiswidgets.Horizon, but got a Fault"),
-        ([HORIZON], "a horizon is asked for"),
+        (FAULT, "expected a horizon, a seiswidgets.Horizon, but got a Fault"),
+        ([HORIZON], "expected a horizon"),
         (sw.Horizon([(0, 400), (50, 400)], name="H2"), "'H2' is no longer than the mesh spacing of 100 m; draw more"),
         (sw.Horizon([(0, 400), (0.1, 400)], name="H2"), "'H2' is no longer than the mesh spacing of 100 m; draw more"),
         (
@@ -332,7 +394,9 @@ def test_too_fine_meshes(spacing, message):
 
 def test_too_coarse_meshes():
     restoration = sw.Restoration(SECTION, spacing=400)
-    with pytest.raises(sw.SettingError, match=r"400 m makes only \d+ vertices; at least 30 are needed: choose less"):
+    with pytest.raises(
+        sw.SettingError, match=r"400 m makes only \d+ vertices; at least 30 .*: reduce spacing="
+    ):
         restoration.flatten(sw.Horizon([(0, 400), (1500, 400)]))
     assert restoration.stages == ()
 

@@ -186,14 +186,14 @@ def test_an_overshoot_counts_where_no_other_piece_lies():
 
 def test_a_piece_across_several_faults_is_split_at_each():
     lines = [LineString(line) for line in GRABEN.values()]
-    found = split_at_faults(LineString([(3000, 400), (0, 400)]), lines, number=7)
+    found = split_at_faults(LineString([(3000, 400), (0, 400)]), lines, piece=7)
     assert [part.line.length for part in found] == pytest.approx([960, 1080, 960])
     assert [tuple(end and (end.fault, end.side) for end in part.ends) for part in found] == [
         (None, (1, -1)),
         ((1, 1), (0, 1)),
         ((0, -1), None),
     ]
-    assert {part.number for part in found} == {7}
+    assert {part.piece for part in found} == {7}
 
 
 def test_the_drawing_and_the_report_agree():

@@ -7,7 +7,7 @@ from shapely import LineString
 
 import seiswidgets as sw
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import MERGED, REACH, fault_lines, merged, with_points
+from seiswidgets.geology.fault_lines import MERGED, REACH, fault_lines, insert_points, merge_close_points
 
 SECTION = sw.Section(np.ones((11, 21), np.float32), dx=100, dz=100)
 SPACING = 100.0
@@ -78,14 +78,14 @@ def test_repeated_points_are_merged(count):
     crowd = np.repeat(corners, count, axis=0)
     crowd[1::count] += rng.uniform(-0.4, 0.4, (3, 2)) * MERGED * SPACING
     crowd[count - 1 :: count] = corners
-    np.testing.assert_array_equal(merged(crowd, SPACING)[[0, -1]], corners[[0, -1]])
-    assert len(merged(crowd, SPACING)) == 3
-    np.testing.assert_allclose(merged(crowd, SPACING), corners, atol=MERGED * SPACING)
+    np.testing.assert_array_equal(merge_close_points(crowd, SPACING)[[0, -1]], corners[[0, -1]])
+    assert len(merge_close_points(crowd, SPACING)) == 3
+    np.testing.assert_allclose(merge_close_points(crowd, SPACING), corners, atol=MERGED * SPACING)
 
 
 def test_points_farther_apart_stay():
     points = np.array([(0, 0), (0, 1.1), (0, 2.2), (0, 3.3)]) * MERGED * SPACING
-    np.testing.assert_array_equal(merged(points, SPACING), points)
+    np.testing.assert_array_equal(merge_close_points(points, SPACING), points)
 
 
 @pytest.mark.parametrize("length", [0.5, 50, 100])
@@ -126,10 +126,10 @@ def test_faults_side_by_side():
 
 
 @pytest.mark.parametrize("turned", [1, -1])
-def test_with_points(turned):
+def test_insert_points(turned):
     line = LineString([(0, 0), (10, 0), (10, 10)][::turned])
     places = [(10, 5), (5, 0), (10, 0), (0, 0), (10, 5), (10, 7)]
-    found = shapely.get_coordinates(with_points(line, places))
+    found = shapely.get_coordinates(insert_points(line, places))
     np.testing.assert_allclose(found[::turned], [(0, 0), (5, 0), (10, 0), (10, 5), (10, 7), (10, 10)])
 
 

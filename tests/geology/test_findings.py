@@ -63,7 +63,7 @@ def test_a_fault_that_ends_just_below_the_top(section, shortfall, words):
     (end,) = of_kind(stage.report.findings, "fault end")
     assert end.severity == "warning"
     assert end.pick == "F1"
-    assert end.text == f"{words}; the rock there must bend instead of slip. Draw it on to the border if it reaches it."
+    assert end.text == f"{words}; the rock there must bend instead of slip. Extend it to the border if it reaches it."
     np.testing.assert_allclose(end.where, section.from_rock(at(shortfall)), rtol=1e-9)
 
 

@@ -74,7 +74,7 @@ def test_arguments_of_another_kind_are_told(tmp_path, act, message):
 
 def test_the_name_of_a_pick_may_stand_alone_in_a_step():
     assert sw.Step("flatten", "H1").picks == ("H1",)
-    with pytest.raises(sw.SettingError, match=r"weights of a plan must be seiswidgets\.Weights, but are "):
+    with pytest.raises(sw.SettingError, match=r"weights must be a seiswidgets\.Weights, but is "):
         sw.Plan(weights={"slide": 1})
 
 

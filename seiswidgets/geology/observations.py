@@ -1,0 +1,144 @@
+"""Observations of a stage's solution: what is left at faults and cut-offs, off the datum, and of beds' lengths."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from seiswidgets.core.contact import Contact
+from seiswidgets.core.solver import Solution
+from seiswidgets.core.terms import Level
+from seiswidgets.geology.cutoffs import CutOffPair
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_ends import fault_end_findings
+from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport
+
+if TYPE_CHECKING:  # both modules import this one
+    from seiswidgets.geology.flattening import Bed
+    from seiswidgets.geology.unfaulting import Blocks
+
+KEPT = 0.005  # of a horizon's length: a larger change is worth a finding
+
+
+def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain) -> Observations:
+    """Measure what an unfaulting stage has left at seams and cut-offs, and done to beds."""
+    seams, wide = _seams(blocks, solution, domain)
+    cutoffs, apart = _cutoffs(blocks, solution.vertices, domain)
+    before, after = blocks.mesh.vertices, solution.vertices
+    beds = tuple(BedReport(name, length_change(edges, before, after)) for name, edges in blocks.beds.items())
+    stretched = [
+        finding for name, edges in blocks.beds.items() for finding in _stretched(name, edges, before, after, domain)
+    ]
+    ends = fault_end_findings(blocks.network.faults, blocks.slips(), domain)
+    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *ends))
+
+
+def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, domain: RestorationDomain) -> Observations:
+    """Measure how level a flattened horizon is, and how its length has changed."""
+    before, off = bed.mesh.vertices, vertices[level.vertices, 1] - level.datum
+    flatness = float(np.sqrt(np.mean(off**2)) / domain.section.metres[1])
+    report = BedReport(name, length_change([bed.edges], before, vertices), flatness)
+    farthest = before[level.vertices[np.argmax(np.abs(off))]]
+    uneven = _uneven(name, float(np.abs(off).max()), farthest, domain)
+    stretched = _stretched(name, [bed.edges], before, vertices, domain)
+    return Observations(beds=(report,), findings=(*uneven, *stretched))
+
+
+def length_change(edges: Sequence[np.ndarray], before: np.ndarray, after: np.ndarray) -> float:
+    """Relative change of the total length of some polylines.
+
+    Parameters
+    ----------
+    edges : list of array, each of shape (k, 2)
+        Pairs of vertices.
+    before, after : array, shape (n, 2)
+    """
+    old, new = (_lengths(np.concatenate(edges), vertices).sum() for vertices in (before, after))
+    return float(new / old - 1)
+
+
+def _lengths(edges: np.ndarray, vertices: np.ndarray) -> np.ndarray:
+    return np.hypot(*(vertices[edges[:, 1]] - vertices[edges[:, 0]]).T)
+
+
+def _stretched(
+    name: str, edges: Sequence[np.ndarray], before: np.ndarray, after: np.ndarray, domain: RestorationDomain
+) -> list[Finding]:
+    """A finding if a horizon's length has changed by more than 0.5%, at the edge that changed most."""
+    change = length_change(edges, before, after)
+    if abs(change) <= KEPT:
+        return []
+    all_edges = np.concatenate(edges)
+    most = np.argmax(np.sign(change) * (_lengths(all_edges, after) - _lengths(all_edges, before)))
+    point = before[all_edges[most]].mean(axis=0)
+    text = (
+        f"horizon {name} has become {abs(change):.1%} {'longer' if change > 0 else 'shorter'}, most of all near "
+        f"{domain.where(point)}; check there how the horizon and the faults beside it are drawn"
+    )
+    return [Finding("warning", "bed length", text, name, domain.position(point))]
+
+
+def _uneven(name: str, off: float, point: np.ndarray, domain: RestorationDomain) -> list[Finding]:
+    """A finding if a horizon is more than the slack off its datum."""
+    if off <= domain.slack:
+        return []
+    text = (
+        f"horizon {name} is still up to {off / domain.section.metres[1]:.2g} {domain.section.z_unit} off its datum "
+        f"near {domain.where(point)}; check how it is drawn there, or raise the weight flatten"
+    )
+    return [Finding("problem", "datum", text, name, domain.position(point))]
+
+
+def _seams(
+    blocks: "Blocks", solution: Solution, domain: RestorationDomain
+) -> tuple[tuple[SeamReport, ...], list[Finding]]:
+    """Gap and overlap along each fault, and findings where they are wider than the slack."""
+    seams, wide = [], []
+    contacts = [term for term in solution.terms if isinstance(term, Contact)]
+    for name, pair in zip(blocks.sides, zip(contacts[::2], contacts[1::2], strict=True), strict=True):
+        gap = overlap = widest = 0.0
+        for term, outwards in zip(pair, (1, -1), strict=True):
+            distances, lengths = outwards * term.distances(solution.vertices), term.lengths(blocks.mesh.vertices)
+            gap += 0.5 * float(lengths @ np.maximum(distances, 0))
+            overlap += 0.5 * float(lengths @ np.maximum(-distances, 0))
+            if np.max(np.abs(distances), initial=0) > widest:
+                widest = float(np.max(np.abs(distances)))
+                point = blocks.mesh.vertices[term.held_points[np.argmax(np.abs(distances))]]
+        seams.append(SeamReport(name, gap, overlap, widest))
+        if widest > domain.slack:
+            wide.append(_sides_apart(name, widest, point, domain))
+    return tuple(seams), wide
+
+
+def _sides_apart(name: str, widest: float, point: np.ndarray, domain: RestorationDomain) -> Finding:
+    text = (
+        f"the sides of fault {name} are up to {domain.length(widest)} apart or overlapping, most of all near "
+        f"{domain.where(point)}; check the shape of the fault there, and the cut-offs on both its sides"
+    )
+    return Finding("warning", "contact", text, name, domain.position(point))
+
+
+def _cutoffs(
+    blocks: "Blocks", vertices: np.ndarray, domain: RestorationDomain
+) -> tuple[tuple[CutOffReport, ...], list[Finding]]:
+    """Throw, heave and misfit of each pair of cut-offs, and findings where the misfit is more than the slack."""
+    reports, apart = [], []
+    for pair, (hanging_wall, footwall) in zip(blocks.cutoffs, blocks.stitches, strict=True):
+        before = domain.section.from_rock(blocks.mesh.vertices[[hanging_wall, footwall]])
+        top, bottom = sorted((blocks.network.faults[pair.fault].coords[k] for k in (0, -1)), key=lambda end: end[1])
+        misfit = float(np.hypot(*(vertices[hanging_wall] - vertices[footwall])))
+        heave = (before[0, 0] - before[1, 0]) * (1 if bottom[0] >= top[0] else -1)
+        reports.append(CutOffReport(pair.fault, pair.horizon, float(before[0, 1] - before[1, 1]), float(heave), misfit))
+        if misfit > domain.slack:
+            apart.append(_cutoffs_apart(pair, misfit, blocks.mesh.vertices[hanging_wall], domain))
+    return tuple(reports), apart
+
+
+def _cutoffs_apart(pair: CutOffPair, misfit: float, point: np.ndarray, domain: RestorationDomain) -> Finding:
+    text = (
+        f"horizon {pair.horizon} at fault {pair.fault}: its cut-offs are still {domain.length(misfit)} apart, near "
+        f"{domain.where(point)}; check that both pieces belong to one horizon and end at the fault where they should, "
+        "or leave one out"
+    )
+    return Finding("problem", "cut-off", text, pair.horizon, domain.position(point))
