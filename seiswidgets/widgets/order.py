@@ -1,16 +1,18 @@
-"""Messages from the page, in the order in which they were sent."""
+"""Messages from the page, handled in the order in which they were sent."""
+
+from collections.abc import Iterable
 
 from ipywidgets import Widget
 
-ROUTE = "_reply_subshell_for"  # by which ipykernel 7.4 chooses the thread for a widget's message
+ROUTE = "_reply_subshell_for"  # ipykernel 7.4 calls this method to choose the thread for a widget's message
 
 
 def keep_order(widget: Widget) -> None:
-    """Have the messages to a widget, and to all that it holds or will hold, handled one after the other.
+    """Handle the messages to a widget, and to its present and later children, one after the other.
 
-    ipykernel 7.4 hands them to the main thread or to another, whichever wrote to that widget last. While a cell ran, a
-    click on a button waited for it, and the clicks on a pane after that one did not, and were taken for something else.
-    All of them are for the main thread here; other versions of ipykernel keep the order by themselves.
+    ipykernel 7.4 hands a message to the main thread or to a subshell's thread, whichever wrote to that widget last.
+    While a cell ran, a click on a button waited for it but the clicks on a pane after that one did not, and were
+    misunderstood. Here all messages go to the main thread; other versions of ipykernel keep the order anyway.
     """
     if not hasattr(widget.comm, ROUTE) or ROUTE in vars(widget.comm):
         return
@@ -20,10 +22,10 @@ def keep_order(widget: Widget) -> None:
         _keep_order_of(widget.children)
 
 
-def _keep_order_of(widgets):
+def _keep_order_of(widgets: Iterable[Widget]) -> None:
     for widget in widgets:
         keep_order(widget)
 
 
-def _to_main_thread(data, default):
-    return None
+def _to_main_thread(data: object, default: object) -> None:
+    """Return None, which means the main thread."""

@@ -9,12 +9,12 @@ from seiswidgets.widgets.workspace import Workspace
 
 def test_only_a_hand_moves_the_mesh_spacing():
     controls = SolverControls(Workspace(sw.synthetic.faulted_fold().section))
-    slider, middle = controls._slider, controls._slider.value
+    slider, middle = controls.slider, controls.slider.value
     slider.value = middle * 10 ** (0.5 * slider.step)  # as a page rounds what it is given
     assert controls.spacing is None
     slider.value = middle * 10**slider.step
     assert controls.spacing == pytest.approx(middle * 10**slider.step)
-    controls._usual.click()
+    controls.default_button.click()
     assert controls.spacing is None
     assert slider.value == pytest.approx(middle)
 
@@ -25,6 +25,6 @@ def test_the_mesh_spacing_suits_sections_of_any_size():
     controls = SolverControls(workspace)
     for section in (large, small):
         workspace.open(section, Drawing())
-        slider, usual = controls._slider, sw.Restoration(section).domain.spacing
+        slider, usual = controls.slider, sw.Restoration(section).domain.spacing
         np.testing.assert_allclose([10**slider.min, slider.value, 10**slider.max], [usual / 4, usual, 4 * usual])
         assert controls.spacing is None

@@ -1,6 +1,6 @@
 from ipywidgets import HTML
 
-from seiswidgets.widgets.panels.pages import Pages
+from seiswidgets.widgets.app import LazyTabs
 
 
 def test_a_page_is_made_when_it_is_first_looked_at_and_once():
@@ -10,7 +10,7 @@ def test_a_page_is_made_when_it_is_first_looked_at_and_once():
         made.append(name)
         return HTML(name)
 
-    pages = Pages(Picks=lambda: page("picks"), Weights=lambda: page("weights"))
+    pages = LazyTabs(Picks=lambda: page("picks"), Weights=lambda: page("weights"))
     assert (pages.titles, made) == (("Picks", "Weights"), ["picks"])
     for number in (1, 0, 1):
         pages.selected_index = number
