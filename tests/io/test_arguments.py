@@ -13,19 +13,21 @@ FAULT = sw.Fault([(0, 0), (1, 1)], "F1")
 SOURCE = sw.SectionSource("synthetic", "tilt")
 
 
-@pytest.mark.parametrize("path", [None, 5, b"line.sgy", "", ["line.sgy"], SECTION])
+NO_PATHS = [None, 5, b"line.sgy", "", ["line.sgy"], SECTION]
+
+
 @pytest.mark.parametrize(
-    "act",
+    ("act", "path"),
     [
-        sw.open_section,
-        sw.preview,
-        sw.open_session,
-        sw.Session.of(SECTION, SOURCE, NONE_DRAWN).save,
-        lambda path: sw.read_picks(path, SECTION),
-        lambda path: sw.write_picks(NONE_DRAWN, path, SECTION),
-        lambda path: sw.save_section(SECTION, path),
-        lambda path: sw.SectionSource("file", path),
-        sw.Autosave,
+        *((sw.open_section, path) for path in NO_PATHS),
+        (sw.preview, None),
+        (sw.open_session, ""),
+        (sw.Session.of(SECTION, SOURCE, NONE_DRAWN).save, 5),
+        (lambda path: sw.read_picks(path, SECTION), ["line.sgy"]),
+        (lambda path: sw.write_picks(NONE_DRAWN, path, SECTION), b"line.sgy"),
+        (lambda path: sw.save_section(SECTION, path), SECTION),
+        (lambda path: sw.SectionSource("file", path), ""),
+        (sw.Autosave, None),
     ],
 )
 def test_what_is_no_path_is_told(act, path):

@@ -179,11 +179,17 @@ def test_the_bar_fits_a_narrow_terminal(capsys, monkeypatch):
     assert "session.json [" in told
 
 
-def test_version_help_and_wrong_calls():
+def test_version_help_and_wrong_calls(capsys):
     assert run("--version").stdout == f"seiswidgets {sw.__version__}\n"
-    result = run("restore", "--help")
-    assert (result.returncode, result.stderr) == (0, "")
+
+    def stopped(*arguments):
+        with pytest.raises(SystemExit, match=r"^[02]$") as stop:
+            command.main(arguments)
+        return stop.value.code, *capsys.readouterr()
+
+    status, told, complaint = stopped("restore", "--help")
+    assert (status, complaint) == (0, "")
     for word in ("session.json", "--out DIR", "--allow-outside", "-restored.npz", "Exit status"):
-        assert word in result.stdout
-    assert run().returncode == 2
-    assert "--out" in run("restore", "x.json").stderr
+        assert word in told
+    assert stopped()[0] == 2
+    assert "--out" in stopped("restore", "x.json")[2]

@@ -1,10 +1,31 @@
+"""The pages below the panes, made when they are looked at, and the solver's controls on one of them."""
+
 import numpy as np
 import pytest
+from ipywidgets import HTML
 
 import seiswidgets as sw
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.widgets.panels.controls import SolverControls
+from seiswidgets.widgets.app import LazyTabs
 from seiswidgets.widgets.workspace import Workspace
+
+
+def test_a_page_is_made_when_it_is_first_looked_at_and_once():
+    made = []
+
+    def page(name):
+        made.append(name)
+        return HTML(name)
+
+    pages = LazyTabs(Picks=lambda: page("picks"), Weights=lambda: page("weights"))
+    assert (pages.titles, made) == (("Picks", "Weights"), ["picks"])
+    for number in (1, 0, 1):
+        pages.selected_index = number
+        assert pages.children[number].children[0].value == ("picks", "weights")[number]
+    assert made == ["picks", "weights"]
+    pages.selected_index = None  # as a page may send it
+    assert made == ["picks", "weights"]
 
 
 def test_only_a_hand_moves_the_mesh_spacing():
