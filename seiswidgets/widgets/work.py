@@ -14,8 +14,8 @@ from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import DraftLine, Drawing
-from seiswidgets.io.document import LARGEST_OURS, Entry, json_text, parse_json
-from seiswidgets.io.session.file import document, fields_of
+from seiswidgets.io.document import MOST_JSON_BYTES, Entry, json_text, parse_json
+from seiswidgets.io.session.file import session_document, session_fields
 from seiswidgets.io.session.session import Session
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.app import RestorationApp
@@ -60,13 +60,13 @@ class Work:
         Raises
         ------
         PickError
-            If a name contains half of a surrogate pair, which no text can hold.
+            If a name contains an unpaired surrogate.
         """
         session = session_of(Document(section, self.drawing, self.plan, source), sha256, KEPT)
         line = self.drawing.draft
         return json_text(
             {
-                "session": document(session, KEPT),
+                "session": session_document(session, KEPT),
                 "draft": None if line is None else asdict(line),
                 "settings": self.settings,
             }
@@ -81,11 +81,13 @@ class Work:
         SeiswidgetsError
             If the text is damaged or comes from a newer version, or the picks do not lie on the section.
         """
-        if len(text) > LARGEST_OURS:
-            raise DataError(f"{KEPT} must have at most {LARGEST_OURS:,} characters, but has {len(text):,}; start over")
+        if len(text) > MOST_JSON_BYTES:
+            raise DataError(
+                f"{KEPT} must have at most {MOST_JSON_BYTES:,} characters, but has {len(text):,}; start over"
+            )
         entry = parse_json(text, KEPT)
-        session = Session(**fields_of(entry["session"], allow_outside=False))
-        line = entry.optional("draft", _line)
+        session = Session(**session_fields(entry["session"], allow_outside=False))
+        line = entry.optional("draft", _line, None)
         drawing = replace(drawing_of(session), draft=line)
         points = [*(line.points if line else ()), *([session.fixed] if session.fixed else [])]
         if not (drawing.lies_on(section) and (not points or section.contains(points).all())):
@@ -118,7 +120,7 @@ def _line(entry: Entry) -> DraftLine:
     points = entry["points"].points()
     if not points:
         raise entry["points"].error("one point or more")
-    return DraftLine(kind, points, entry.optional("name", Entry.text))
+    return DraftLine(kind, points, entry.optional("name", Entry.text, None))
 
 
 def _settings(entry: Entry) -> dict[str, Any]:

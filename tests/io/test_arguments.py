@@ -31,7 +31,7 @@ NO_PATHS = [None, 5, b"line.sgy", "", ["line.sgy"], SECTION]
     ],
 )
 def test_what_is_no_path_is_told(act, path):
-    with pytest.raises(sw.DataError, match="a path must be a text or a Path that names a file, but is "):
+    with pytest.raises(sw.DataError, match="a path must be a string or a Path that names a file, but is "):
         act(path)
 
 
@@ -39,7 +39,7 @@ def test_what_is_no_path_is_told(act, path):
     ("act", "message"),
     [
         (lambda path: sw.read_picks(path / "a.csv", np.ones((2, 3))), "section must be a Section, but is a ndarray"),
-        (lambda path: sw.read_picks(path / "a.csv", SECTION, z_up="no"), "z_up must be True or False, but is 'no'"),
+        (lambda path: sw.read_picks(path / "a.csv", SECTION, z_up="no"), "z_up= must be True or False, but is 'no'"),
         (lambda path: sw.write_picks([FAULT], path / "a.csv", SECTION), "must be an Interpretation, but is a list"),
         (lambda path: sw.write_picks(NONE_DRAWN, path / "a.csv", None), "section must be a Section"),
         (lambda path: sw.save_mesh(SECTION, path / "a.vtu"), "restored must be a Restoration, but is a Section"),
@@ -48,7 +48,7 @@ def test_what_is_no_path_is_told(act, path):
         (lambda path: sw.save_section(SECTION, path / "a.sgy", x0="left"), "x0 must be a finite number"),
         (
             lambda path: sw.save_section(SECTION, path / "a.sgy", inline=3),
-            "inline= is of the line that like= holds; give that file",
+            "inline= selects a line of the file like=; give that file",
         ),
         (lambda path: sw.displacement(SECTION), "restored must be a Restoration"),
         (lambda path: sw.to_xarray(restored()), "section must be a Section, but is a Restoration"),

@@ -31,7 +31,7 @@ job._tell = lambda stop, wanted, share: (share > 0.5 and stop.wait(60), tell(sto
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
 SAVED = """[len(version.session.faults) for version in
-    __import__("seiswidgets.io.session.autosave").io.session.autosave.found("{0}.json")][:1]"""
+    __import__("seiswidgets.io.session.autosave").io.session.autosave.find_versions("{0}.json")][:1]"""
 DISK = """exec('''
 from seiswidgets.io import files
 class Full:
