@@ -201,7 +201,7 @@ def test_who_starts_anew_keeps_the_earlier_work_aside(new_app, path):
     draw_fault(again, OTHER)
     for number in range(12):
         again.fixed = (100.0 + number, 100.0)
-        wait_for(lambda: again.session_bar._autosave.pending is None)
+        wait_for(lambda: again.session_bar.is_saved)
     assert len(numbered_files(path)) == 10
     assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].name == "F1"
 
@@ -338,8 +338,7 @@ def test_versions_that_cannot_be_opened_are_not_written_over_unasked(new_app, pa
 
 def keep_here(app):
     """Press the button in the tab File."""
-    _, button = app.files.session.children[0].children
-    button.click()
+    app.files.session.keep_button.click()
 
 
 def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
@@ -348,7 +347,7 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
         app.session_path = tmp_path / "work.txt"
     with pytest.raises(DataError, match="home"):
         app.session_path = "~nobody-of-that-name/work.json"
-    with pytest.raises(DataError, match="there is no folder"):
+    with pytest.raises(DataError, match="does not exist"):
         app.session_path = tmp_path / "none" / "work.json"
     app.files.session.path.value = "work.txt"
     keep_here(app)
@@ -369,4 +368,4 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     app.files.session.path.value = ""
     keep_here(app)
     assert app.session_path is None
-    assert "Nothing is saved" in app.files.session.notice.text
+    assert "are not saved any more" in app.files.session.notice.text
