@@ -289,7 +289,7 @@ def test_picks_are_kept_or_dropped_as_the_user_says(restored, case, tmp_path):
     answer(opener.notice, "Keep the picks")
     assert app.section is not case.section
     assert app.picker.drawing == drawn
-    assert app.workspace.history.next_undo.label == "open faulted fold"
+    assert app.workspace.history.next_undo.label == "open same.npz"
     load(app, line(tmp_path / "line.sgy"))
     assert set(opener.notice.answers) == {"Drop the picks", "Do not open"}
     answer(opener.notice, "Drop the picks")

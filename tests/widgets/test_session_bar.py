@@ -213,7 +213,7 @@ def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_d
     draw_fault(app)
     wait_for(lambda: app.session_bar.news.text)
     assert "No space left on device" in app.session_bar.news.text
-    assert "stays in memory" in app.session_bar.news.text
+    assert "stay in memory" in app.session_bar.news.text
     assert app.status.text != app.session_bar.news.text
     assert [fault.name for fault in app.interpretation.faults] == ["F1"]
     full_disk.clear()
@@ -284,7 +284,7 @@ def test_the_picks_alone_are_taken_where_the_section_is_gone(new_app, path, sect
     assert "do not lie on the section" in small.session_bar.notice.text
     assert set(small.session_bar.notice.answers) == {"Open", "Picks only", "Start anew"}
     assert again.session_path is None
-    assert "Another app keeps its work" in again.session_bar.notice.text
+    assert "Another app saves its work" in again.session_bar.notice.text
 
 
 def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, section, tmp_path):

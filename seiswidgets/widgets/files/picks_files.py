@@ -5,6 +5,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+import numpy as np
 from ipywidgets import Button, Checkbox, Dropdown, HBox, Layout, Text, VBox
 
 from seiswidgets.errors import SettingError
@@ -174,7 +175,9 @@ class PicksFiles(VBox):
 
 def _with_added(drawing: Drawing, picks: Interpretation) -> Drawing:
     """Add picks to a drawing; they replace those of the same names."""
-    new_picks = [(FAULT, fault.name, (fault.points,)) for fault in picks.faults]
+    new_picks: list[tuple[str, str, tuple[np.ndarray, ...]]] = [
+        (FAULT, fault.name, (fault.points,)) for fault in picks.faults
+    ]
     new_picks += [(HORIZON, horizon.name, horizon.pieces) for horizon in picks.horizons]
     for kind, name, pieces in new_picks:
         add = drawing.with_pieces if name in drawing.names(kind) else drawing.with_pick

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from html import escape
 from typing import Any
 
-from ipywidgets import HTML, Dropdown, Layout, Text, VBox
+from ipywidgets import HTML, Dropdown, Layout, Text, VBox, Widget
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
@@ -47,6 +47,8 @@ class SectionFields(VBox):
     note : HTML
         Findings about the file, and the values that are assumed.
     """
+
+    children: tuple[Widget, ...]
 
     def __init__(self) -> None:
         super().__init__()

@@ -3,6 +3,7 @@
 import contextlib
 from collections.abc import Callable, Mapping
 from functools import partial
+from os import PathLike
 from pathlib import Path
 from typing import cast
 from weakref import WeakValueDictionary
@@ -77,7 +78,7 @@ class SessionBar(VBox):
         """Whether all finished edits are in the session's file."""
         return self._autosave is not None and self._autosave.pending is None
 
-    def keep(self, path: str | Path | None) -> None:
+    def keep(self, path: str | PathLike | None) -> None:
         """Save the work under a path from now on, or nowhere.
 
         If there is earlier work under the path, nothing is written until the user has chosen between that and the work
@@ -157,7 +158,7 @@ class SessionBar(VBox):
         document = self.workspace.document
         self._has_work = self._has_work or bool(document.drawing.picks) or document.plan.fixed is not None
         if self._autosave is not None and self._has_work and self.workspace.settled:
-            self._autosave.save(session_of(document, self._sha256, path))
+            self._autosave.save(_to_save(document, self._sha256, path))
 
     def _leave_section(self) -> None:
         """Set the work aside before another section is shown.
@@ -189,7 +190,7 @@ class SessionBar(VBox):
     def _offer(self, path: Path, versions: list[Version]) -> None:
         self.versions.options = [(_summary(version), version) for version in versions]
         self.versions.value = versions[0]
-        answers = {OPEN: self._open, PICKS_ONLY: self._open_picks, START_ANEW: partial(self._start_anew, path)}
+        answers: Answers = {OPEN: self._open, PICKS_ONLY: self._open_picks, START_ANEW: partial(self._start_anew, path)}
         self._ask(f"{path} holds earlier work. {UNSAVED}", answers, self.versions)
 
     def _ask(self, text: str, answers: Answers, *before: Widget) -> None:
@@ -257,7 +258,7 @@ def _is_outside(folder: Path, source: SectionSource) -> bool:
     return False
 
 
-def _checked(path: str | Path) -> Path:
+def _checked(path: str | PathLike) -> Path:
     path = user_path(path).absolute()
     if path.suffix.lower() != ".json":
         raise SettingError(f"{path} must end in .json, as a session's file does")
@@ -272,16 +273,18 @@ def _summary(version: Version) -> str:
     return f"{version.saved:%d %b %Y, %H:%M:%S}: {counted(version.session)}{held} ({version.path.name})"
 
 
-def session_of(document: Document, sha256: str, path: Path) -> Session | SessionWithSection:
-    """Session of a document to be saved under a path, without the draft line.
+def _to_save(document: Document, sha256: str, path: Path) -> Session | SessionWithSection:
+    """Session of a document under a path; a section without a source is saved beside it."""
+    source = cast(SectionSource | None, document.source)
+    if source is not None:
+        return session_of(document, source, sha256)
+    return SessionWithSection(session_of(document, source_beside(path, sha256), sha256), document.section)
 
-    A section without a source is saved beside it.
-    """
+
+def session_of(document: Document, source: SectionSource, sha256: str) -> Session:
+    """Session of a document whose section has a known source and hash, without the draft line."""
     faults, horizons = (_saved_picks(document.drawing, kind) for kind in (FAULT, HORIZON))
-    known = cast(SectionSource | None, document.source)
-    source = known or source_beside(path, sha256)
-    session = Session(source, sha256, faults, horizons, document.plan)
-    return session if known else SessionWithSection(session, document.section)
+    return Session(source, sha256, faults, horizons, document.plan)
 
 
 def _saved_picks(drawing: Drawing, kind: str) -> tuple[SavedPick, ...]:
