@@ -72,7 +72,7 @@ class SectionFields(VBox):
             self.fields[name].value = before[name].value
         self._update_units()
         replaced = [field for field in self.children if field is not self.note]
-        self.children = [*self.fields.values(), self.note]
+        self.children = (*self.fields.values(), self.note)
         for field in replaced:  # or ipywidgets would keep it alive
             close_with_parts(field)
 
