@@ -7,6 +7,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io import files
 from seiswidgets.io.session.autosave import find_versions, numbered_files
 from seiswidgets.widgets.app import RestorationApp
@@ -369,3 +370,59 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     keep_here(app)
     assert app.session_path is None
     assert "are not saved any more" in app.files.session.notice.text
+
+
+@pytest.mark.usefixtures("quick")
+def test_undoing_a_change_of_section_continues_the_first_ones_session(new_app, path, section):
+    app = new_app(session=path)
+    draw_fault(app)
+    drawing = app.picker.drawing
+    wait_for(lambda: app.session_bar.is_saved)
+    other = sw.synthetic.tilt().section
+    app.workspace.open(other, Drawing())
+    assert "work.before-000001.json" in app.session_bar.notice.text
+    draw_fault(app, [(500.0, 200.0), (800.0, 700.0)])
+    while app.section is other:
+        app.picker.editor.undo()
+    assert (app.section, app.picker.drawing) == (section, drawing)
+    theirs = path.with_name("work.before-000002.json")
+    assert str(theirs) in app.session_bar.notice.text
+    np.testing.assert_array_equal(sw.open_session(theirs).open_section().amplitude, other.amplitude)
+    assert app.session_path == path
+    draw_fault(app, OTHER)
+    app.close()
+    assert names(path) == ["F1", "F2"]
+    np.testing.assert_array_equal(find_versions(path)[0].session.open_section().amplitude, section.amplitude)
+    assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].pieces == (tuple(FAULT),)
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_section_without_work_leaves_none_aside(new_app, path, section, tmp_path):
+    app = new_app(session=path)
+    draw_fault(app)
+    app.workspace.open(sw.synthetic.tilt().section, Drawing())
+    app.picker.editor.undo()
+    assert app.section is section
+    assert app.session_bar.notice.text == ""
+    app.close()
+    assert names(path) == ["F1"]
+    assert len(list(tmp_path.glob("*.before-*"))) == 1
+
+
+@pytest.mark.usefixtures("quick")
+def test_undoing_a_change_of_section_is_refused_while_the_work_cannot_be_saved(new_app, path, section, full_disk):
+    app = new_app(session=path)
+    other, history = sw.synthetic.tilt().section, app.workspace.history
+    app.section = other
+    app.interpretation = sw.Interpretation([sw.Fault([(500.0, 200.0), (800.0, 700.0)], "F1")])
+    app.fixed = (100.0, 100.0)
+    full_disk.append("")
+    keys(app.panes.original, "z", "z", modifiers=["ctrl"])
+    assert history.next_undo.document.section is section
+    with pytest.raises(DataError, match="No space left"):
+        app.picker.editor.undo()
+    assert (app.section, history.undo_count, history.redo_count) == (other, 1, 2)
+    assert "This section stays, because its work cannot be saved" in app.session_bar.notice.text
+    full_disk.clear()
+    app.picker.editor.undo()
+    assert app.section is section
