@@ -204,13 +204,13 @@ class SectionPane(WithParts, VBox):
             self._painter.colouring = self.colouring
             self.layer.label = f"{self.section.name or 'seismic section'}; zoom with + and -, 0 fits, arrows pan"
             if self.view.section is not self.section:
-                self.view = self.view.of(self.section)  # which draws it
+                self.view = self.view.with_section(self.section)  # which draws it
             else:
                 self._painter.draw(self.view)
 
     @observe("frame")
     def _take_frame(self, change):
-        self.view = self.view.framed(self.frame)
+        self.view = self.view.with_frame(self.frame)
 
     @observe("view")
     def _take_view(self, change):
@@ -267,7 +267,7 @@ class SectionPane(WithParts, VBox):
         elif message.kind == "rest":
             self._painter.sharpen(self.view)
         elif not self._is_consumed(message):
-            self.view = self._navigation.moved(self.view, message)
+            self.view = self._navigation.navigate(self.view, message)
         self._tell_hover(message)
 
     def _is_consumed(self, message):
