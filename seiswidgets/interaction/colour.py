@@ -1,6 +1,7 @@
 """Colours of amplitudes and of area ratios."""
 
 from dataclasses import dataclass
+from io import BytesIO
 
 import matplotlib as mpl
 import numpy as np
@@ -33,7 +34,7 @@ class Colouring:
     limit: float
 
     def levels(self, amplitude: np.ndarray) -> np.ndarray:
-        """Palette indices of amplitudes, in the same shape: 1 to 255, 128 for amplitude 0, and 0 where there are no data."""
+        """Palette indices of amplitudes: 1 to 255, with 128 for amplitude 0, and 0 where there are no data."""
         known = np.isfinite(amplitude)
         scaled = np.clip(np.where(known, amplitude, 0) / self.limit, -1, 1)
         return np.where(known, np.rint(128 + 127 * scaled), 0).astype(np.uint8)
@@ -120,3 +121,24 @@ class RatioColouring:
             inside = (level >= max(low, 1)) & (level <= high)
             colours[:, 3] = np.where(inside, 1.0, FADED * colours[:, 3])
         return np.rint(255 * colours).astype(np.uint8)
+
+
+def encode_png(levels: np.ndarray, palette: np.ndarray, quick: bool = False) -> bytes:
+    """Encode a picture as a PNG with a palette, which keeps every colour and transparency.
+
+    A JPEG is a third of the size but takes as long to encode (measured at 450 x 300 and 900 x 600), and has no
+    transparency: parts without data would flicker between moving and still pictures.
+
+    Parameters
+    ----------
+    levels : array of uint8, shape (height, width)
+    palette : array of uint8, shape (256, 4)
+        Red, green, blue and alpha.
+    quick : bool
+        True if time matters more than size.
+    """
+    picture = Image.fromarray(levels)
+    picture.putpalette(palette[:, :3].tobytes())
+    file = BytesIO()
+    picture.save(file, "PNG", transparency=palette[:, 3].tobytes(), compress_level=1 if quick else 3)
+    return file.getvalue()

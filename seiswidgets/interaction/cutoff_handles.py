@@ -11,7 +11,7 @@ from shapely import LineString
 from seiswidgets.geology.cutoffs import WALLS
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.segments import End, HorizonSegment, hanging_side, horizon_segments
+from seiswidgets.geology.segments import HorizonSegment, hanging_side, horizon_segments
 from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection, Point, Points
 
 INSIDE = 1e-3  # share of a segment's length at which a point of it is clear of the fault

@@ -158,7 +158,7 @@ class PickEditor:
         self._become(self.state.change(selection=None))
 
     def rename(self, kind: str, name: str, new: str) -> None:
-        """Rename a pick; a horizon given the name of another becomes pieces of it. PickError if the name cannot be used."""
+        """Rename a pick; a horizon given the name of another becomes pieces of it. PickError if that fails."""
         self._draw(f"rename {name}", self.drawing.with_name(kind, name, new), PickSelection(kind, str(new).strip()))
 
     def recolour(self, kind: str, name: str, colour: str) -> None:

@@ -138,9 +138,6 @@ def mesh_state(vertices: np.ndarray, triangles: np.ndarray) -> State:
 
 
 def map_state(source: ArrayLike, target: ArrayLike, triangles: ArrayLike) -> State:
-    """Convert a piecewise affine map to what the pointer layer applies; see `PiecewiseAffineMap`."""
-    return {
-        "source": np.asarray(source, "<f8").tobytes(),
-        "target": np.asarray(target, "<f8").tobytes(),
-        "triangles": np.asarray(triangles).astype("<u4").tobytes(),
-    }
+    """A piecewise affine map as the layer in the browser knows it; see `PiecewiseAffineMap`."""
+    places = {name: np.asarray(array, "<f8").tobytes() for name, array in (("source", source), ("target", target))}
+    return {**places, "triangles": np.asarray(triangles).astype("<u4").tobytes()}

@@ -187,7 +187,7 @@ class Viewport:
         return stretched.zoomed(min(1.0, reach / (FEWEST * self.section.dz)))
 
     def resized(self, width: float, height: float, pixel_ratio: float | None = None) -> "Viewport":
-        """View in a pane of another size: a fitted view stays fitted, any other keeps its exaggeration and range of x."""
+        """View in a pane of another size: a fitted one stays fitted, others keep their exaggeration and range of x."""
         ratio = self.pixel_ratio if pixel_ratio is None else pixel_ratio
         view = replace(self, width=width, height=height, pixel_ratio=ratio)
         if self.is_fitted:

@@ -22,11 +22,11 @@ from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.files.file_panel import FilePanel
 from seiswidgets.widgets.files.session_bar import SessionBar
 from seiswidgets.widgets.histogram import DeformationHistogram
+from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.linked_panes import LinkedPanes
 from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.names import Names
-from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.panels.pages import Pages
 from seiswidgets.widgets.panels.reports import Reports

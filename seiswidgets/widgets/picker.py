@@ -18,9 +18,9 @@ from seiswidgets.interaction.scene import marks, rubber_band, strokes
 from seiswidgets.interaction.snapping import EVENTS, follow_event, snap_to_event
 from seiswidgets.widgets.binding import bind, bind_control
 from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.key_guard import KeyGuard
-from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panels.picks_list import PicksList
 from seiswidgets.widgets.section_view.pane import SectionPane
 from seiswidgets.widgets.workspace import Workspace
