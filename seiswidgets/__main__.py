@@ -1,40 +1,39 @@
-"""What ``python -m seiswidgets`` does: restore sessions without a notebook."""
+"""Command line ``python -m seiswidgets``: restores sessions without a notebook."""
 
 import argparse
-import re
 import shutil
 import sys
 import traceback
 from pathlib import Path
 
 from seiswidgets import __version__
-from seiswidgets.errors import SeiswidgetsError
-from seiswidgets.io.session.replay import output_names, replayed
+from seiswidgets.errors import SeiswidgetsError, Text
+from seiswidgets.geology.findings import worst_first
+from seiswidgets.io.session.replay import Replay, output_names, replay_session
 
-WIDTH = 24  # of the bar
-SHARE = 5  # iterations, after which half of a step is shown as done: nobody knows how many it will take
-OPTION = re.compile(r"\b(allow_outside|allow_changed)=True\b")  # of a function, in what its errors advise
+BAR_WIDTH = 24
+HALF = 5  # iterations after which half of a step is shown as done: nobody knows how many it will take
+OPTIONS = {"allow_outside": "--allow-outside", "allow_changed": "--allow-changed"}  # as errors name them
 
 DESCRIPTION = """Restores the section of each session as its plan says, and writes into a folder:
-<name>-restored.npz (the section), <name>-report.txt and <name>-report.json (how each step went).
-Files of these names that are there already are replaced."""
+<name>-restored.npz (the section), <name>-report.txt and <name>-report.json (a report of each step).
+Existing files of these names are replaced."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command; 0 if all went well, 1 if a session could not be restored, 2 if it was called wrongly."""
-    asked = _parser().parse_args(arguments)
+    """Run the command; return 0 if all went well, 1 if a session could not be restored, 2 if it was called wrongly."""
+    options = _parser().parse_args(arguments)
     try:
-        asked.out.mkdir(parents=True, exist_ok=True)
+        options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        sys.stderr.write(f"{asked.out} cannot be made: {error.strerror}; choose another folder by --out\n")
+        sys.stderr.write(f"{options.out} cannot be created: {error.strerror}; choose another folder with --out\n")
         return 1
-    done = [
-        _restored(path, name, asked) for path, name in zip(asked.sessions, output_names(asked.sessions), strict=True)
-    ]
-    return 0 if all(done) else 1
+    names = output_names(options.sessions)
+    successes = [_restore(path, name, options) for path, name in zip(options.sessions, names, strict=True)]
+    return 0 if all(successes) else 1
 
 
-def _parser():
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("python -m seiswidgets", description="Seismic image restoration.")
     parser.add_argument("--version", action="version", version=f"seiswidgets {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="command")
@@ -47,77 +46,87 @@ def _parser():
     )
     restore.add_argument("sessions", nargs="+", type=Path, metavar="session.json", help="a saved session")
     restore.add_argument(
-        "--out", type=Path, required=True, metavar="DIR", help="folder for the results; made if need be"
+        "--out", type=Path, required=True, metavar="DIR", help="folder for the results; created if necessary"
     )
     restore.add_argument(
-        "--allow-outside", action="store_true", help="let a session open a section that lies outside its own folder"
-    )
-    restore.add_argument(
-        "--allow-changed",
+        OPTIONS["allow_outside"],
         action="store_true",
-        help="restore even if the section is not the one the session was made on",
+        help="allow a session to open a section that lies outside the session's folder",
+    )
+    restore.add_argument(
+        OPTIONS["allow_changed"],
+        action="store_true",
+        help="restore even if the section is not the one that the session was made on",
     )
     return parser
 
 
-def _restored(path, name, asked):
-    """Restore one session; whether that went well."""
-    bar = Bar(str(path))
+def _restore(path: Path, name: str, options: argparse.Namespace) -> bool:
+    """Restore one session and report on stderr; return whether it could be restored."""
+    bar = ProgressBar(str(path))
     try:
-        replay = replayed(
+        replay = replay_session(
             path,
-            asked.out,
+            options.out,
             name,
             bar.show,
-            allow_outside=asked.allow_outside,
-            allow_changed=asked.allow_changed,
+            allow_outside=options.allow_outside,
+            allow_changed=options.allow_changed,
         )
     except SeiswidgetsError as error:
-        message = OPTION.sub(lambda match: f"--{match[1].replace('_', '-')}", str(error))
+        message = error.text.rendered(OPTIONS)
         bar.end(message if message.startswith(str(path)) else f"{path}: {message}")
         return False
-    except Exception as error:  # noqa: BLE001 - a fault of ours in one session must not keep the others from theirs
-        bar.end(f"{path}: {error!r}, which is a fault of seiswidgets; please report it with the lines below")
+    except Exception as error:  # noqa: BLE001 - a bug in one session must not stop the others
+        bar.end(f"{path}: {error!r}, which is a bug in seiswidgets; please report it with the lines below")
         traceback.print_exc()
         return False
     stages = replay.restored.stages
     settled = "" if all(stage.report.converged for stage in stages) else ", NOT all settled"
     bar.end(f"{path}: {len(stages)} step{'' if len(stages) == 1 else 's'}{settled}, in {replay.files[1]}")
-    for problem in replay.session.problems:
-        sys.stderr.write(f"{path}: left out: {problem}\n")
+    sys.stderr.writelines(f"{path}: {line}\n" for line in _findings(replay))
     return True
 
 
-class Bar:
-    """A line on stderr that fills while a session is restored; where nobody watches, only its end is written."""
+def _findings(replay: Replay) -> list[str]:
+    """Lines of picks that were left out, then the findings of all stages, worst first."""
+    findings = worst_first(finding for stage in replay.restored.stages for finding in stage.report.findings)
+    return [f"left out: {problem}" for problem in replay.session.problems] + [
+        f"{finding.severity}: {finding.text.rendered(OPTIONS) if isinstance(finding.text, Text) else finding.text}"
+        for finding in findings
+    ]
 
-    def __init__(self, label):
-        self.label, self.shown = label, 0
+
+class ProgressBar:
+    """A line on stderr that fills while a session is restored; without a terminal only its end is written."""
+
+    def __init__(self, label: str) -> None:
+        self.label, self._shown = label, 0
 
     def show(self, step: int, steps: int, iteration: int) -> None:
-        """Show that an iteration of a step is done; both counted from 1."""
+        """Show that an iteration of a step is done; both are counted from 1."""
         if not sys.stderr.isatty():
             return
-        filled = round(WIDTH * (step - 1 + iteration / (iteration + SHARE)) / steps)
-        bar = f" [{'#' * filled:<{WIDTH}}] step {step} of {steps}, iteration {iteration}"
-        room = max(0, shutil.get_terminal_size().columns - len(bar) - 1)  # a longer line would not be written over
+        filled = round(BAR_WIDTH * (step - 1 + iteration / (iteration + HALF)) / steps)
+        bar = f" [{'#' * filled:<{BAR_WIDTH}}] step {step} of {steps}, iteration {iteration}"
+        room = max(0, shutil.get_terminal_size().columns - len(bar) - 1)  # a wrapped line could not be overwritten
         self._write(self.label[max(0, len(self.label) - room) :] + bar)
 
     def end(self, message: str) -> None:
-        """Leave a message where the bar was."""
+        """Replace the bar with a message."""
         self._write(message)
         sys.stderr.write("\n")
         sys.stderr.flush()
 
-    def _write(self, text):
-        sys.stderr.write(("\r" if self.shown else "") + text.ljust(self.shown))
+    def _write(self, text: str) -> None:
+        sys.stderr.write(("\r" if self._shown else "") + text.ljust(self._shown))
         sys.stderr.flush()
-        self.shown = len(text)
+        self._shown = len(text)
 
 
 if __name__ == "__main__":
     try:
         sys.exit(main())
     except KeyboardInterrupt:
-        sys.stderr.write("\nstopped; what was restored before is complete\n")
+        sys.stderr.write("\ninterrupted; the results written before are complete\n")
         sys.exit(130)

@@ -4,7 +4,6 @@ import tomllib
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -57,11 +56,12 @@ def test_every_line_is_one_exact_version():
         assert (pin.url, pin.marker, pin.extras) == (None, None, set()), pin
 
 
-@pytest.mark.parametrize("requirement", needed(), ids=str)
-def test_pins_are_within_the_projects_ranges(requirement):
-    pinned = versions().get(canonicalize_name(requirement.name))
-    assert pinned, f"{requirement.name} is not pinned; {AGAIN}"
-    assert requirement.specifier.contains(pinned), f"{requirement.name} is pinned to {pinned}; {AGAIN}"
+def test_pins_are_within_the_projects_ranges():
+    assert len(needed()) > 10
+    for requirement in needed():
+        pinned = versions().get(canonicalize_name(requirement.name))
+        assert pinned, f"{requirement.name} is not pinned; {AGAIN}"
+        assert requirement.specifier.contains(pinned), f"{requirement.name} is pinned to {pinned}; {AGAIN}"
 
 
 def test_what_the_pinned_packages_need_is_pinned_too():

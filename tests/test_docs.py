@@ -1,4 +1,4 @@
-"""The documentation names all that is public, and its examples hold."""
+"""The documentation names all that is public; its examples and that of the README hold."""
 
 import doctest
 import importlib
@@ -8,12 +8,15 @@ import re
 from pathlib import Path
 from typing import get_type_hints
 
+import matplotlib.pyplot as plt
 import pytest
 
 import seiswidgets as sw
 from seiswidgets.geology.synthetic import Synthetic
 
-API = Path(__file__).parents[1] / "docs" / "api"
+ROOT = Path(__file__).parents[1]
+API = ROOT / "docs" / "api"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = "\n".join(page.read_text(encoding="utf-8") for page in API.glob("*.md"))
 MODULES = [module.name for module in pkgutil.walk_packages(sw.__path__, "seiswidgets.") if module.name[-2:] != "__"]
 
@@ -51,3 +54,12 @@ def test_the_docstrings_example_holds(example):
     result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE).run(example)
     assert result.attempted
     assert not result.failed
+
+
+def test_the_readmes_example_runs_as_it_is(tmp_path, monkeypatch, capsys):
+    (example,) = re.findall(r"^```python\n(.*?)^```", README, flags=re.DOTALL | re.MULTILINE)
+    monkeypatch.chdir(tmp_path)
+    exec(example, {})
+    plt.close("all")
+    assert "settled" in capsys.readouterr().out
+    assert (tmp_path / "workflow.png").stat().st_size > 10_000

@@ -259,7 +259,7 @@ def test_whole_figures_credit_the_data(restored):
     ("keywords", "match"),
     [
         ({"clip": 0}, "clip must be a percentile, above 0 and at most 100, but is 0"),
-        ({"exaggeration": -1}, "exaggeration must be above 0, and 1 for true proportions, but is -1"),
+        ({"exaggeration": -1}, "exaggeration must be above 0, or 1 for true proportions, but is -1"),
         ({"window": (5, 1, 0, 1)}, "window must be"),
         ({"window": (5, 1)}, "window must be"),
     ],

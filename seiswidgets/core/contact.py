@@ -151,6 +151,11 @@ class Contact:
     def _held_bulge(self):
         return self.bulge[self.partner[self.partner >= 0]]
 
+    @property
+    def held_points(self) -> np.ndarray:
+        """The vertices that are held to a segment now, in the order of ``distances``."""
+        return self.points[self.partner >= 0]
+
     def distances(self, vertices) -> np.ndarray:
         """Signed distance of each held point from the smooth fault of the other side, in metres."""
         along, distance, _, _ = self._feet(vertices, *self._pairs())

@@ -116,10 +116,12 @@ class NormalEquations:
         self._ordering = self._cholesky.ordering
         self.analyses += 1
 
-    def _numbers_of(self, number, data, factor=None):
+    def _numbers_of(self, number, data):
         """What a steady term adds to the matrix."""
-        products = self._gram[number].products(data, factor)
-        return np.bincount(self._place[number], products, minlength=len(self._keys))
+        return self._at_places(self._place[number], self._gram[number].products(data))
+
+    def _at_places(self, place, products):
+        return np.bincount(place, products, minlength=len(self._keys))
 
     def at(self, terms, vertices, residuals):
         """Take in the residuals and Jacobians at these positions.
@@ -147,9 +149,17 @@ class NormalEquations:
         self._numbers = self._unchanging.copy()
         for number, jacobian in steady:
             self._numbers += self._numbers_of(number, jacobian.data)
-        self._bent = {n: terms[n].curvature(vertices) for n, _ in steady if hasattr(terms[n], "curvature")}
-        for gram, data in grams:
-            np.add.at(self._numbers, np.searchsorted(self._keys, gram.keys), gram.products(data))
+        places = [(terms[number], self._gram[number], self._place[number]) for number, _ in steady]
+        for (number, _), (gram, data) in zip(moving, grams, strict=True):
+            place = np.searchsorted(self._keys, gram.keys)
+            self._numbers += self._at_places(place, gram.products(data))
+            places.append((terms[number], gram, place))
+        self._bent = [
+            (gram, place, layer)
+            for term, gram, place in places
+            if hasattr(term, "curvature")
+            for layer in term.curvature(vertices)
+        ]
 
     def _widen(self, wanted):
         keys = np.concatenate([np.empty(0, np.int64), *wanted])
@@ -170,7 +180,7 @@ class NormalEquations:
         Parameters
         ----------
         damping : float
-            What is added to the diagonal, in units of its mean.
+            What is added to the diagonal, in units of its median: a few heavy rows must not stiffen soft rock elsewhere.
         bending : float, optional
             The share that is taken of the second derivatives of what is shortened. With 1, and all of those of what
             is stretched, the step is Newton's; with less the matrix is more surely positive definite. Without it the
@@ -182,9 +192,11 @@ class NormalEquations:
         """
         numbers = self._numbers.copy()
         if bending is not None:
-            for number, (data, factor) in self._bent.items():
-                numbers += self._numbers_of(number, data, np.where(factor > 0, factor, bending * factor))
-        numbers[self._diagonal] += damping * self._numbers[self._diagonal].sum() / max(self.size, 1)
+            for gram, place, (data, factor) in self._bent:
+                convex = np.where(factor > 0, factor, bending * factor)
+                numbers += self._at_places(place, gram.products(data, convex))
+        if self.size:
+            numbers[self._diagonal] += damping * np.median(self._numbers[self._diagonal])
         self.factorisations += 1
         self._cholesky.factorise(numbers)
         step = np.zeros(len(self._unknown))

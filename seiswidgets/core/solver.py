@@ -11,10 +11,11 @@ from seiswidgets.core.normal_equations import NormalEquations
 from seiswidgets.core.terms import MOVING
 from seiswidgets.errors import Cancelled
 
-LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the mean diagonal; the least only tames motions that cost nothing
+LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the median diagonal; the least only tames motions that cost nothing
 LEAST_BENDING = 0.1  # share of the second derivatives that is worth a try
 HALVINGS = 5
 ROUNDING = 1e-11  # of an energy: changes below this are noise
+IDLE, IDLE_STEPS, IDLE_MOVE = 1e-9, 5, 100  # share of the energy, steps that gain less, and their size in tolerances
 SLOW = 0.8  # share of the energy left by a step: with more, much of the residual is there to stay
 
 
@@ -28,7 +29,8 @@ class Solution:
     terms : list of terms, the moving ones as they were held at the end
     iterations, factorisations : int
     converged : bool
-        Whether the last full step moved no vertex by more than the tolerance.
+        Whether the last full step moved no vertex by more than the tolerance, or the last few steps hardly more than
+        that and without any gain.
     energies : tuple of float
         The energy at the start and after each iteration.
     """
@@ -83,6 +85,11 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     Where a step has left most of the energy, the next takes second derivatives in as well and is Newton's (Fletcher and
     Xu, Hybrid methods for nonlinear least squares, 1987): Gauss-Newton alone gets slow where residuals stay large.
 
+    Where a vertex in contact lies at the corner between two segments, or a triangle at the barrier's onset, the second
+    derivatives jump, and steps may go to and fro a little above the tolerance for ever. So it has settled too when five
+    steps in turn, none of them damped, have moved no vertex by more than 100 times the tolerance and gained less
+    than 1e-9 of the energy each.
+
     Parameters
     ----------
     terms : list of terms
@@ -104,7 +111,7 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
     terms = update_contacts(terms, vertices)
     equations = NormalEquations(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
     left = residuals(terms, vertices)
-    energies, converged, iteration = [squared(left)], False, 0
+    energies, converged, iteration, idle = [squared(left)], False, 0, 0
     while not converged and iteration < max_iterations:
         equations.at(terms, vertices, left)
         curved = len(energies) > 1 and energies[-1] > SLOW * energies[-2]
@@ -112,7 +119,7 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
         if found is None:
             break
         moved, left, full = found
-        converged = full and _farthest(moved - vertices) <= tolerance
+        move = _farthest(moved - vertices)
         vertices, iteration, before = moved, iteration + 1, terms
         terms = update_contacts(terms, vertices)
         left = [
@@ -120,6 +127,9 @@ def gauss_newton(terms, triangles, start, free, tolerance, max_iterations=200, p
             for term, old, residual in zip(terms, before, left, strict=True)
         ]
         energies.append(squared(left))
+        gained = energies[-1] < (1 - IDLE) * energies[-2]
+        idle = 0 if gained or caution.damping > LEAST_DAMPING or move > IDLE_MOVE * tolerance else idle + 1
+        converged = (full and move <= tolerance) or idle == IDLE_STEPS
         _report(progress, iteration, energies[-1], vertices)
     return Solution(vertices, terms, iteration, equations.factorisations, converged, tuple(energies))
 
@@ -145,7 +155,7 @@ class Caution:
     def less(self):
         """After a step that did."""
         self.damping = max(self.damping / 10, LEAST_DAMPING)
-        self.bending = min(1.5 * max(self.bending, LEAST_BENDING), 1.0)
+        self.bending = min(3 * max(self.bending, LEAST_BENDING), 1.0)
 
 
 def _descent(equations, terms, vertices, height, triangles, caution, tolerance, curved):

@@ -143,14 +143,14 @@ class EdgeLength:
 
         Returns
         -------
-        data : array, entries of rows with the Jacobian's pattern
-        factor : array, shape (e,)
-            Such that the sum of factor times row times row, over all rows, is the sum of residual times its Hessian.
+        list of (data, factor)
+            Entries of rows with the Jacobian's pattern, and a factor for each row, such that the sum of factor times
+            row times row is the sum of residual times its Hessian.
         """
         unit, lengths = self._vectors(vertices)
         normal = unit[:, ::-1] * [-1, 1]
         factor = self.weight**2 * (1 - self._lengths / np.maximum(lengths, np.finfo(float).tiny))
-        return np.hstack([normal, -normal]).ravel(), factor
+        return [(np.hstack([normal, -normal]).ravel(), factor)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,6 +235,33 @@ class AreaBarrier:
         by_corner = 0.5 * opposite[..., ::-1] * [-1, 1]
         data = -(areas**-0.5 / share**2)[:, None] * by_corner.reshape(-1, 6)
         return sparse_rows(coordinates(triangles), data, vertices.size)
+
+    def curvature(self, vertices):
+        """What the residual's second derivatives add, as for ``EdgeLength``.
+
+        The residual bends as 1/s does, and the area s itself is a quadratic form of the corners, the same for all
+        triangles: it is taken along its four principal directions.
+        """
+        _, areas, share = self._pressed(vertices)
+        residual = self.residual(vertices)
+        bend = -residual / (np.sqrt(areas) * share**2)
+        rows = [(np.tile(direction, len(areas)), size * bend) for size, direction in zip(*AREA_MODES, strict=True)]
+        return [(self.jacobian(vertices).data, 2 * residual * share / np.sqrt(areas)), *rows]
+
+
+def _area_modes():
+    """Principal curvatures of a triangle's area over its corners' coordinates, and their directions in rows."""
+    hessian = np.zeros((6, 6))
+    for corner in range(3):
+        after = (corner + 1) % 3
+        hessian[2 * corner, 2 * after + 1] = 0.5
+        hessian[2 * after, 2 * corner + 1] = -0.5
+    sizes, directions = np.linalg.eigh(hessian + hessian.T)
+    curved = np.abs(sizes) > 0.1  # a shift of the whole triangle is no curvature
+    return sizes[curved], directions.T[curved]
+
+
+AREA_MODES = _area_modes()
 
 
 def coordinates(vertices):

@@ -6,9 +6,11 @@ J. R. Shewchuk, Triangle: engineering a 2D quality mesh generator and Delaunay t
 import numpy as np
 import shapely
 import triangle
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from seiswidgets.core.linework import MERGED, graph
-from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.core.mesh import Mesh, edge_keys, triangle_areas
 from seiswidgets.errors import SettingError
 
 LEAST_ANGLE = 30  # degrees; Triangle is sure to end up to about 33
@@ -103,15 +105,21 @@ def _raise_crowded(corners, most):
     )
 
 
-def edges_along(mesh: Mesh, line, spacing: float) -> np.ndarray:
+def edges_along(mesh: Mesh, line, spacing: float, without=None) -> np.ndarray:
     """The mesh's edges that lie on a line which it was made to conform to, in order and direction of the line.
+
+    Points that were merged lie a little beside the line, and short edges of other lines a little beside it too. So of
+    all edges close to the line only those on the shortest path from its start to its end are taken.
 
     Parameters
     ----------
     mesh : Mesh
     line : shapely LineString
+        One that does not cross itself.
     spacing : float
         Of the mesh.
+    without : array, shape (k, 2), optional
+        Edges of other lines, which are never taken.
 
     Returns
     -------
@@ -119,14 +127,46 @@ def edges_along(mesh: Mesh, line, spacing: float) -> np.ndarray:
         Pairs of vertices.
     """
     tolerance = 2 * MERGED * spacing
+    edges = _edges_near(mesh, line, tolerance)
+    if without is not None:
+        edges = edges[~np.isin(edge_keys(edges), edge_keys(without))]
+    used, ends = np.unique(edges, return_inverse=True)
+    if not len(used):
+        return np.empty((0, 2), int)
+    ends = ends.reshape(-1, 2)
+    points = shapely.points(mesh.vertices[used])
+    way, beside = shapely.line_locate_point(line, points), shapely.distance(line, points)
+    lengths = np.hypot(*(mesh.vertices[edges[:, 1]] - mesh.vertices[edges[:, 0]]).T)
+    near = coo_array((lengths, ends.T), shape=(len(used),) * 2).tocsr()
+    paths = []
+    for part in _connected(near):
+        start, stop = part[np.argmin(way[part] + beside[part])], part[np.argmax(way[part] - beside[part])]
+        if way[stop] - way[start] > 2 * tolerance or len(part) == len(used):  # the line, and no stray edge beside it
+            paths.append((way[start], _shortest_path(near, start, stop)))
+    paths = [used[path] for _, path in sorted(paths, key=lambda found: found[0])]
+    return np.concatenate([np.column_stack([path[:-1], path[1:]]) for path in paths] or [np.empty((0, 2), int)])
+
+
+def _edges_near(mesh, line, tolerance):
+    """The edges whose ends and middle lie within the tolerance of a line."""
     shapely.prepare(line)
     low, high = np.reshape(line.bounds, (2, 2)) + [[-tolerance], [tolerance]]
     near = ((mesh.vertices >= low) & (mesh.vertices <= high)).all(axis=1)  # spares most of them the exact question
     near[near] = shapely.dwithin(line, shapely.points(mesh.vertices[near]), tolerance)
     edges = mesh.edges[near[mesh.edges[:, 0]] & near[mesh.edges[:, 1]]]
-    middle = shapely.points(mesh.vertices[edges].mean(axis=1))
-    on_line = shapely.dwithin(line, middle, tolerance)
-    edges, middle = edges[on_line], middle[on_line]
-    edges = edges[np.argsort(shapely.line_locate_point(line, middle))]
-    along = shapely.line_locate_point(line, shapely.points(mesh.vertices[edges]))
-    return np.take_along_axis(edges, np.argsort(along, axis=1), axis=1)
+    return edges[shapely.dwithin(line, shapely.points(mesh.vertices[edges].mean(axis=1)), tolerance)]
+
+
+def _connected(graph):
+    """The vertices of each connected part of a graph."""
+    count, label = connected_components(graph, directed=False)
+    return [np.flatnonzero(label == number) for number in range(count)]
+
+
+def _shortest_path(graph, start, stop):
+    """The vertices from one to another, both included."""
+    _, before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)
+    path = [stop]
+    while path[-1] != start:
+        path.append(before[path[-1]])
+    return np.array(path[::-1])

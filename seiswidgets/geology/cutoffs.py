@@ -68,6 +68,12 @@ class PickNetwork:
                 )
         return found
 
+    def ends_at(self, fault: str) -> list[tuple[float, float]]:
+        """The points where horizons end at a fault."""
+        number = list(self.faults).index(fault)
+        ends = (end for horizon in self.horizons.values() for part in horizon for end in part.ends)
+        return [end.point for end in ends if end and end.fault == number]
+
     def _pair(self, fault, horizon):
         sides = {side: self._claims(fault, horizon, side) for side in WALLS}
         for side, claims in sides.items():

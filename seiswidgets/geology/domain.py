@@ -74,7 +74,17 @@ class RestorationDomain:
         lines = tuple(tuple((name, *(line.wkb for line in pieces)) for name, pieces in kind.items()) for kind in drawn)
         return self.outline.wkb, self.asked, self.tolerance, lines
 
+    def length(self, metres: float) -> str:
+        """A length in the words of the section: in its unit of x, also where z is a time."""
+        shown = float(f"{metres / self.section.metres[0]:.2g}")
+        return f"{shown:.6g} {self.section.x_unit}{' of rock' if self.section.is_time else ''}"
+
+    def position(self, point) -> tuple[float, float]:
+        """A point in metres of rock, in the section's units."""
+        x, z = self.section.from_rock(point)
+        return float(x), float(z)
+
     def where(self, point) -> str:
         """A place in the words of the section: with its units."""
-        x, z = self.section.from_rock(point)
+        x, z = self.position(point)
         return f"x={x:.6g} {self.section.x_unit}, z={z:.6g} {self.section.z_unit}"

@@ -10,6 +10,7 @@ from seiswidgets.geology.domain import RestorationDomain
 
 MERGED = 0.01  # of the mesh spacing: points closer than this become one
 REACH = 0.25  # of the mesh spacing: a fault that ends so close to the border or to another fault meets it
+CLOSE = 0.05  # of the mesh spacing: a drawn point so close to a cut-off, a crossing or a tip gives way to it
 EDGES = 8  # at least, along each fault
 SHARPEST = np.radians(10)  # between two stretches of a fault: less makes slivers of rock
 
@@ -101,6 +102,43 @@ def _meeting(line, others, reach):
 
 def _crossings(line, other):
     return [part.centroid for part in shapely.get_parts(line.intersection(other)) if not part.is_empty]
+
+
+def passing_through(line: LineString, cutoffs, crossings, reach: float) -> LineString:
+    """A fault that passes through its cut-offs and crossings instead of through drawn points close to them.
+
+    Two points of a fault that lie much closer than the mesh spacing make slivers, which hold a whole block.
+
+    Parameters
+    ----------
+    line : LineString
+    cutoffs, crossings : lists of points on it
+        Crossings are where other faults cross it, or end.
+    reach : float
+        How close is close.
+    """
+    points = shapely.get_coordinates(line)
+    places = np.array([points[0], points[-1], *cutoffs, *crossings], float).reshape(-1, 2)
+    apart = np.hypot(*np.moveaxis(points[:, None] - places, -1, 0))
+    close = apart.min(axis=1) < reach
+    close[[0, -1]] = False
+    if not close.any():
+        return line
+    points[close] = places[apart[close].argmin(axis=1)]
+    new = np.append(True, (points[1:] != points[:-1]).any(axis=1))
+    return with_points(LineString(points[new]), crossings)
+
+
+def crossings(name: str, lines: dict) -> list:
+    """The points where other faults cross one, or end at it."""
+    line = lines[name]
+    others = [other for key, other in lines.items() if key != name]
+    met = [point.coords[0] for other in others for point in _crossings(line, other)]
+    return met + [end for other in others for end in (other.coords[0], other.coords[-1]) if _touches(line, end)]
+
+
+def _touches(line, point):
+    return line.distance(Point(point)) <= 1e-9 * line.length
 
 
 def with_points(line: LineString, places) -> LineString:

@@ -24,7 +24,8 @@ class Finding:
     pick : str, optional
         Name of the fault or horizon concerned.
     where : (x, z), optional
-        Position in the section's units.
+        Position in the section's units, before the step that was observed; ``Restoration.findings`` gives it in the
+        present-day section.
     """
 
     severity: str

@@ -12,13 +12,13 @@ from seiswidgets.core.mesh import Mesh, edge_keys
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
+from seiswidgets.geology.bed_length import length_change, stretched_bed
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import merged
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.report import BedReport
 from seiswidgets.geology.solve import Options, reusable_setup, solved, vertex_masses, warm_start
 from seiswidgets.geology.stage import Stage, staged
-from seiswidgets.geology.unfaulting import length_change
 
 JOINED = 0.5  # of the mesh spacing: ends of two pieces that lie closer are one place
 
@@ -40,6 +40,15 @@ class Bed:
     edges: np.ndarray
     fingerprint: tuple
 
+    @property
+    def reach(self) -> float:
+        """What multiplies the horizon's weights: the root of the number of its edges.
+
+        A horizon is a line, but has to move an area, whose stiffness stays the same on a finer mesh while that of the
+        line's edges falls. With this factor the horizon keeps its length, and lies level, on any mesh.
+        """
+        return float(np.sqrt(len(self.edges)))
+
 
 def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None, options: Options) -> Stage:
     """The stage that makes a horizon level.
@@ -60,9 +69,9 @@ def flattened(domain: RestorationDomain, name: str, pieces, datum: float | None,
     setup = reusable_setup(options.start, fingerprint) or _bed(domain, name, pieces, fingerprint)
     mesh, bed = setup.mesh, setup.edges
     datum = _mean_level(mesh.vertices[bed]) if datum is None else datum
-    level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten)
+    level = Level(np.unique(bed), datum, len(mesh.vertices), options.weights.flatten * setup.reach)
     free = np.ones(len(mesh.vertices), bool)
-    terms = _terms(mesh, bed, level, options.weights)
+    terms = _terms(setup, level, options.weights)
     start = warm_start(mesh, free, options.start)
     start = mesh.vertices if start is None else start
     solution = solved(mesh, terms, start, free, domain.spacing, options, domain.where)
@@ -79,8 +88,9 @@ def _achieved(name, setup, level, vertices, domain):
     off = vertices[level.vertices, 1] - level.datum
     flatness = float(np.sqrt(np.mean(off**2)) / domain.section.metres[1])
     report = BedReport(name, length_change([setup.edges], setup.mesh.vertices, vertices), flatness)
-    findings = () if np.abs(off).max() <= domain.slack else (_still_uneven(name, off),)
-    return {"beds": (report,), "findings": findings}
+    uneven = () if np.abs(off).max() <= domain.slack else (_still_uneven(name, setup.mesh, level, off, domain),)
+    stretched = stretched_bed(name, [setup.edges], setup.mesh.vertices, vertices, domain)
+    return {"beds": (report,), "findings": (*uneven, *stretched)}
 
 
 def _bed(domain, name, pieces, fingerprint):
@@ -89,13 +99,14 @@ def _bed(domain, name, pieces, fingerprint):
     return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), fingerprint)
 
 
-def _terms(mesh, bed, level, weights):
-    others = mesh.edges[~np.isin(edge_keys(mesh.edges), edge_keys(bed))]
+def _terms(setup, level, weights):
+    mesh = setup.mesh
+    others = mesh.edges[~np.isin(edge_keys(mesh.edges), edge_keys(setup.edges))]
     return [
         MeanValue(mesh, weights.mean_value),
         ContourLaplacian(mesh, weights.contour),
         EdgeLength(mesh.vertices, others, weights.edge),
-        EdgeLength(mesh.vertices, bed, weights.length, "bed length"),
+        EdgeLength(mesh.vertices, setup.edges, weights.length * setup.reach, "bed length"),
         level,
         AreaBarrier(mesh),
     ]
@@ -106,9 +117,13 @@ def _mean_level(ends):
     return float(np.average(ends[:, :, 1].mean(axis=1), weights=lengths))
 
 
-def _still_uneven(name, off):
-    text = f"horizon {name} is still up to {np.abs(off).max():.2g} m off its datum"
-    return Finding("problem", "datum", text, name)
+def _still_uneven(name, mesh, level, off, domain):
+    farthest = mesh.vertices[level.vertices[np.argmax(np.abs(off))]]
+    text = (
+        f"horizon {name} is still up to {np.abs(off).max() / domain.section.metres[1]:.2g} {domain.section.z_unit} off "
+        f"its datum near {domain.where(farthest)}; check how it is drawn there, or raise the weight flatten"
+    )
+    return Finding("problem", "datum", text, name, domain.position(farthest))
 
 
 def _inside(lines, domain, name):

@@ -49,7 +49,8 @@ class Report:
     vertices, triangles : int
     iterations, factorisations : int
     converged : bool
-        Whether the solver settled: no vertex moved by more than 1e-6 of the mesh spacing in its last step.
+        Whether the solver settled: no vertex moved by more than 1e-6 of the mesh spacing in its last step, or five
+        steps of less than 1e-4 of it brought no gain.
     seconds : float
     energy : dict of str to float
         By term, in square metres, weights included.
@@ -66,7 +67,8 @@ class Report:
     beds : tuple of BedReport
         Flatness in the unit of z.
     findings : tuple of Finding
-        What the user should know: constraints that gave way by more than a tenth of a sample, and the like.
+        What the user should know, problems first: a solver that did not settle; cut-offs, contacts and levels that are
+        more than a tenth of a sample off; rock on rock; beds that changed their length; faults that end inside.
     x_unit, z_unit : str
     """
 

@@ -11,6 +11,7 @@ from shapely import LineString
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flattened
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
@@ -143,6 +144,11 @@ class Restoration:
     ) -> "Restoration":
         """Bring a horizon to one level while it keeps its length (the paper's section 3.2).
 
+        Level and length are wishes with weights, not constraints. With the default weights sine folds keep their length
+        to 0.06% with limbs of up to 45 degrees and to 0.14% at 60 degrees, and lie within 0.02 m of the level, on
+        meshes of 40 to 100 m; the rock above and below pays for that with its area. The report holds a finding where
+        the length changes by more than 0.5%, or the horizon stays more than a tenth of a sample off its level.
+
         Parameters
         ----------
         horizon : Horizon
@@ -186,6 +192,30 @@ class Restoration:
         for stage in reversed(self.stages):
             points = stage.map.inverse(points)
         return self.original.from_rock(points)
+
+    @property
+    def settled(self) -> bool:
+        """True if the solver settled in every stage."""
+        return all(stage.report.converged for stage in self.stages)
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """The findings of all stages, problems first; ``where`` is a place in the original section, or None."""
+        found = []
+        for number, stage in enumerate(self.stages):
+            before = replace(self, stages=self.stages[:number])
+            found += [replace(finding, where=before._origin(finding.where)) for finding in stage.report.findings]
+        return worst_first(found)
+
+    def _origin(self, where):
+        """The place in the original section of one in the restored section, or of one beside it; None outside."""
+        if where is None or not self.stages:
+            return where
+        step = 1e-3 * self.stages[-1].spacing / self.original.metres  # the border may be off by rounding
+        around = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)])
+        origins = self.to_original(where + step * around)
+        known = origins[np.isfinite(origins).all(axis=1)]
+        return tuple(map(float, known[0])) if len(known) else None
 
     @cached_property
     def section(self) -> Section:

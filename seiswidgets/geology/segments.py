@@ -74,7 +74,7 @@ def split_at_faults(piece: LineString, faults: Sequence[LineString], number: int
     """A line in parts, cut where it crosses faults."""
     crossings = sorted(
         (piece.project(point), fault)
-        for fault in _near(faults, piece, 0.0)
+        for fault in _near(faults, piece, 1e-9 * piece.length)  # rounding can part a line from its own crossing
         for point in _points(piece.intersection(faults[fault]))
     )
     length = piece.length

@@ -76,15 +76,23 @@ class Stage:
         found = self.found()
         overlap, findings = max(0.0, float(areas.sum() - self.outline.area)), found.findings
         if overlap > self.domain.slack * self.spacing:
-            text = f"{overlap:.3g} m² of rock lie on other rock{self._place_of_overlap()}"
-            findings = (*findings, Finding("problem", "overlap", text))
+            findings = (*findings, self._overlapping(overlap))
         return replace(found, overlap=overlap, findings=worst_first(findings))
 
-    def _place_of_overlap(self):
-        """Where a triangle lies whose centre another triangle holds as well."""
+    def _overlapping(self, area):
+        """The finding that rock lies on other rock, at the largest triangle whose centre another triangle holds too."""
         centres = self.vertices[self.mesh.triangles].mean(axis=1)
-        covered = self.map.target_finder(centres) != np.arange(len(centres))
-        return f", as near {self.domain.where(centres[covered][0])}" if covered.any() else ""
+        covered = np.flatnonzero(self.map.target_finder(centres) != np.arange(len(centres)))
+        words, where = "", None
+        if len(covered):
+            largest = self.mesh.triangles[covered[np.argmax(self.mesh.areas[covered])]]
+            place = self.mesh.vertices[largest].mean(axis=0)
+            words, where = f", such as the rock from near {self.domain.where(place)}", self.domain.position(place)
+        text = (
+            f"{area:.3g} m² of rock lie on other rock{words}: the picture shows only one of the two there. Check the "
+            "throws and the shape of the faults nearby, or undo the faults one after the other"
+        )
+        return Finding("problem", "overlap", text, where=where)
 
     def part(self, share: float) -> "Stage":
         """The step at a share of its way, from 0 to 1."""
@@ -169,8 +177,22 @@ def _found(kind, picks, domain, mesh, vertices, solution, solver, seconds, achie
         area_ratio=dict(zip(PERCENTS, percentiles.tolist(), strict=True)),
         x_unit=domain.section.x_unit,
         z_unit=domain.section.z_unit,
-        **achieved(),
+        **_with_settling(achieved(), picks, domain, mesh, ratio, solution),
     )
+
+
+def _with_settling(achieved, picks, domain, mesh, ratio, solution):
+    """What was achieved, with a finding if the solver did not settle."""
+    if solution.converged:
+        return achieved
+    place = mesh.vertices[mesh.triangles[np.argmax(np.abs(np.log(ratio)))]].mean(axis=0)
+    text = (
+        f"the solver did not settle in {solution.iterations} iterations, so this is not yet the best fit to the picks. "
+        f"Allow more (max_iterations), or check the picks near {domain.where(place)}, where the rock is deformed most: "
+        "horizons that contradict each other, or a fault that ends too early"
+    )
+    finding = Finding("problem", "unsettled", text, picks[0] if len(picks) == 1 else None, domain.position(place))
+    return {**achieved, "findings": (finding, *achieved["findings"])}
 
 
 def _energy(solution):

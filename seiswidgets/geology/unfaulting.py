@@ -18,10 +18,9 @@ from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
 from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import EDGES, fault_lines, with_points
-from seiswidgets.geology.findings import Finding
-from seiswidgets.geology.report import BedReport, CutOffReport, SeamReport
+from seiswidgets.geology.fault_lines import CLOSE, EDGES, crossings, fault_lines, passing_through, with_points
 from seiswidgets.geology.segments import horizon_segments
+from seiswidgets.geology.slip_report import slip_report
 from seiswidgets.geology.solve import (
     GAUSS_NEWTON,
     Options,
@@ -75,6 +74,12 @@ class Blocks:
         """
         return float(np.sqrt(np.mean([sides.shape[1] for sides in self.sides.values()])))
 
+    def slips(self) -> dict[str, np.ndarray]:
+        """For each fault the points between its pairs of cut-offs, and the distance of each pair, in metres."""
+        ends = self.mesh.vertices[self.stitches]
+        rows = np.column_stack([ends.mean(axis=1), np.hypot(*(ends[:, 0] - ends[:, 1]).T)])
+        return {name: rows[[pair.fault == name for pair in self.cutoffs]] for name in self.network.faults}
+
 
 def unfaulted(domain: RestorationDomain, faults: dict, horizons: dict, fixed, options: Options) -> Stage:
     """The stage that undoes the slip on some faults.
@@ -103,44 +108,48 @@ def unfaulted(domain: RestorationDomain, faults: dict, horizons: dict, fixed, op
     if adrift:
         vertices = nearest_rigid(mesh.vertices, vertices, vertex_masses(mesh))
     whole, vertices = welded(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
-    seconds, achieved = time.perf_counter() - began, partial(_achieved, blocks, solution, domain)
+    seconds, achieved = time.perf_counter() - began, partial(slip_report, blocks, solution, domain)
     picks, lines = tuple(blocks.network.faults), tuple(blocks.network.faults.values())
     return staged("unfault", picks, domain, whole, vertices, solution, options.solver, seconds, blocks, achieved, lines)
 
 
-def _achieved(blocks, solution, domain):
-    """What is reported of seams, cut-offs and beds."""
-    seams, gave_way = _seams(blocks, solution, domain)
-    cutoffs, apart = _cutoffs(blocks, solution.vertices, domain)
-    beds = tuple(
-        BedReport(name, length_change(edges, blocks.mesh.vertices, solution.vertices))
-        for name, edges in blocks.beds.items()
-    )
-    return {"seams": seams, "cutoffs": cutoffs, "beds": beds, "findings": (*apart, *gave_way)}
-
-
 def _blocks(domain, faults, horizons, fingerprint):
-    drawn = fault_lines(faults, domain)
-    network = PickNetwork(
-        drawn, {name: horizon_segments(pieces, list(drawn.values())) for name, pieces in horizons.items()}, domain.where
-    )
+    network = _network(fault_lines(faults, domain), horizons, domain)
     cutoffs = network.cutoffs()
-    lines = {name: _meshed_line(name, line, network, domain) for name, line in drawn.items()}
+    lines = {name: _meshed_line(name, line, network, domain) for name, line in network.faults.items()}
     beds = {name: [domain.simplified(part.line) for part in horizon] for name, horizon in network.horizons.items()}
     whole = domain.mesh([*lines.values(), *(line for bed in beds.values() for line in bed)])
     edges = {name: _inner_edges(whole, line, name, domain) for name, line in lines.items()}
-    cut = whole.cut(np.concatenate(list(edges.values())))
-    beds = {name: [cut.along(edges_along(whole, line, domain.spacing)) for line in bed] for name, bed in beds.items()}
+    slipped = np.concatenate(list(edges.values()))
+    cut = whole.cut(slipped)
+    beds = {
+        name: [cut.along(edges_along(whole, line, domain.spacing, without=slipped)) for line in bed]
+        for name, bed in beds.items()
+    }
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, network, domain)
     return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, fingerprint)
 
 
+def _network(drawn, horizons, domain):
+    """Faults and horizons matched with each other, the faults without drawn points that lie close to a cut-off."""
+    network = _matched(drawn, horizons, domain)
+    settled = {
+        name: passing_through(line, network.ends_at(name), crossings(name, drawn), CLOSE * domain.spacing)
+        for name, line in drawn.items()
+    }
+    return network if settled == drawn else _matched(settled, horizons, domain)
+
+
+def _matched(drawn, horizons, domain):
+    faults = list(drawn.values())
+    segments = {name: horizon_segments(pieces, faults) for name, pieces in horizons.items()}
+    return PickNetwork(drawn, segments, domain.where)
+
+
 def _meshed_line(name, line, network, domain):
     """A fault with its cut-offs among its points, in edges short enough to slip along."""
-    number = list(network.faults).index(name)
-    ends = (end for horizon in network.horizons.values() for part in horizon for end in part.ends)
-    line = with_points(line, [end.point for end in ends if end and end.fault == number])
+    line = with_points(line, network.ends_at(name))
     return line.segmentize(min(domain.spacing, line.length / EDGES))
 
 
@@ -232,43 +241,3 @@ def _slid_together(mesh, stitches, free, terms):
 def _still_side_last(sides, free):
     """The two sides of a seam, first the one whose vertices may be laid on the other."""
     return (sides[1], sides[0]) if not free[sides[0]].all() else (sides[0], sides[1])
-
-
-def _seams(blocks, solution, domain):
-    """Gap and overlap along each fault, and in words where they are wider than the slack."""
-    seams, gave_way = [], []
-    held = [term for term in solution.terms if isinstance(term, Contact)]
-    for name, pair in zip(blocks.sides, zip(held[::2], held[1::2], strict=True), strict=True):
-        gap = overlap = widest = 0.0
-        for term, outwards in zip(pair, (1, -1), strict=True):
-            distances, lengths = outwards * term.distances(solution.vertices), term.lengths(blocks.mesh.vertices)
-            gap += 0.5 * float(lengths @ np.maximum(distances, 0))
-            overlap += 0.5 * float(lengths @ np.maximum(-distances, 0))
-            widest = max(widest, float(np.max(np.abs(distances), initial=0)))
-        seams.append(SeamReport(name, gap, overlap, widest))
-        if widest > domain.slack:
-            text = f"the sides of fault {name} are up to {widest:.2g} m apart or overlapping"
-            gave_way.append(Finding("warning", "contact", text, name))
-    return tuple(seams), gave_way
-
-
-def _cutoffs(blocks, vertices, domain):
-    """Throw, heave and what is left between each pair of cut-offs, and in words where that is more than the slack."""
-    reports, apart = [], []
-    for pair, (hanging_wall, footwall) in zip(blocks.cutoffs, blocks.stitches, strict=True):
-        before = domain.section.from_rock(blocks.mesh.vertices[[hanging_wall, footwall]])
-        top, bottom = sorted((blocks.network.faults[pair.fault].coords[k] for k in (0, -1)), key=lambda end: end[1])
-        misfit = float(np.hypot(*(vertices[hanging_wall] - vertices[footwall])))
-        heave = (before[0, 0] - before[1, 0]) * (1 if bottom[0] >= top[0] else -1)
-        reports.append(CutOffReport(pair.fault, pair.horizon, float(before[0, 1] - before[1, 1]), float(heave), misfit))
-        if misfit > domain.slack:
-            text = f"horizon {pair.horizon} at fault {pair.fault}: its cut-offs are still {misfit:.2g} m apart"
-            where = tuple(map(float, before[0]))
-            apart.append(Finding("problem", "cut-off", text, pair.horizon, where))
-    return tuple(reports), apart
-
-
-def length_change(edges, before, after) -> float:
-    """Change of the length of some polylines, as a share of it."""
-    lengths = [sum(np.hypot(*(at[line[:, 1]] - at[line[:, 0]]).T).sum() for line in edges) for at in (before, after)]
-    return float(lengths[1] / lengths[0] - 1)

@@ -21,6 +21,9 @@ class Weights:
     flatten, length : float
         Its zeta and lambda while flattening: the horizon becomes level, and keeps its length.
 
+    Those of a line (stitch, flatten, length) are multiplied by the root of the number of its edges, so that they mean
+    the same on a fine mesh as on a coarse one.
+
     Raises
     ------
     SettingError

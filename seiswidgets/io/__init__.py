@@ -1,3 +1,3 @@
-"""Files in and out: sections from files of many kinds, what was made of them, and real sections by name."""
+"""Reading and writing section, pick, session and result files, and real sections by name."""
 
 from seiswidgets.io import datasets as datasets

@@ -1,8 +1,8 @@
 """Real sections, by name.
 
-No data come with the package. A file is looked for in the folder that the environment variable
-``SEISWIDGETS_DATA_DIR`` names, then in a cache, and is else fetched from where its owner published it; each by its
-SHA-256, so that what is read is what was published, byte for byte.
+The package contains no data. A file is searched for in the folder named by the environment variable
+``SEISWIDGETS_DATA_DIR``, then in a cache; otherwise it is downloaded from its publisher. Its SHA-256 is checked, so
+that it is read exactly as it was published.
 """
 
 import os
@@ -26,11 +26,11 @@ class Source:
     Parameters
     ----------
     repository, commit, path : str
-        Where it was published.
+        Location of the published file.
     sha256 : str
-        Its hash, in hexadecimal.
+        Hash of the file, in hexadecimal.
     host : str
-        Where its repository is served from.
+        Server of the repository.
     """
 
     repository: str
@@ -41,12 +41,12 @@ class Source:
 
     @property
     def name(self) -> str:
-        """The file's own name."""
+        """File name without its folders."""
         return self.path.rpartition("/")[2]
 
     @property
     def url(self) -> str:
-        """The address to download it from."""
+        """Download address."""
         return f"{self.host}/{self.repository}/{self.commit}/{self.path}"
 
 
@@ -65,22 +65,22 @@ TEAPOT = Source(
 
 
 def f3(velocity: float = 2000.0) -> Section:
-    """Inline 362 of the F3 block, Dutch North Sea: 951 traces, 25 m apart, of 463 samples of 4 ms.
+    """Inline 362 of the F3 block, Dutch North Sea: 951 traces, 25 m apart, each with 463 samples, 4 ms apart.
 
     Credit: dGB Earth Sciences and TNO, CC BY-SA 3.0.
 
     Parameters
     ----------
     velocity : float
-        Velocity of sound in the rock, in m/s; 2,000 suits its shallow, soft sediment.
+        Seismic velocity in m/s; 2,000 suits its shallow, soft sediment.
 
     Raises
     ------
     DataError
-        If the file is damaged, or neither here nor to be downloaded; the message says where to put it by hand.
+        If the file is damaged, or neither available locally nor downloadable; the message says where to put it.
     """
     return Section(
-        read_ascii_inline(located(F3), shape=(463, 951)),
+        read_ascii_inline(find_file(F3), shape=(463, 951)),
         dx=25.0,
         dz=4.0,
         z_unit="ms",
@@ -91,22 +91,22 @@ def f3(velocity: float = 2000.0) -> Section:
 
 
 def teapot(velocity: float = 3600.0) -> Section:
-    """Section of Teapot Dome, Wyoming: 357 traces, 25 m apart, of 251 samples of 4 ms, from 500 ms down.
+    """Section across Teapot Dome, Wyoming: 357 traces, 25 m apart, each with 251 samples, 4 ms apart, from 500 ms.
 
     Credit: RMOTC, U.S. Department of Energy; from dhale/jtk, Apache-2.0.
 
     Parameters
     ----------
     velocity : float
-        Velocity of sound in the rock, in m/s; 3,600 suits its well-compacted rock.
+        Seismic velocity in m/s; 3,600 suits its well-compacted rock.
 
     Raises
     ------
     DataError
-        If the file is damaged, or neither here nor to be downloaded; the message says where to put it by hand.
+        If the file is damaged, or neither available locally nor downloadable; the message says where to put it.
     """
     return Section(
-        read_raw_traces(located(TEAPOT), shape=(251, 357)),
+        read_raw_traces(find_file(TEAPOT), shape=(251, 357)),
         dx=25.0,
         dz=4.0,
         z0=500.0,
@@ -117,15 +117,14 @@ def teapot(velocity: float = 3600.0) -> Section:
     )
 
 
-def located(source: Source, cache: Path | None = None) -> Path:
-    """Path of a source's file: in the user's folder, or in the cache, downloaded into it if need be.
+def find_file(source: Source, cache: Path | None = None) -> Path:
+    """Find a published file in the user's folder or in the cache, downloading it into the cache if necessary.
 
     Parameters
     ----------
     source : Source
-        What to look for.
     cache : Path, optional
-        The cache's folder; else the usual one of this system.
+        Folder of the cache; the system's usual one if left out.
 
     Raises
     ------
@@ -138,7 +137,7 @@ def located(source: Source, cache: Path | None = None) -> Path:
     return _downloaded(source, cache)
 
 
-def _user_folder():
+def _user_folder() -> Path | None:
     value = os.environ.get(FOLDER_VARIABLE)
     if not value:
         return None
@@ -148,7 +147,7 @@ def _user_folder():
     return folder
 
 
-def _verified(path, source):
+def _verified(path: Path, source: Source) -> Path:
     try:
         with path.open("rb") as file:
             sha256 = file_digest(file, "sha256").hexdigest()
@@ -157,43 +156,42 @@ def _verified(path, source):
     if sha256 != source.sha256:
         raise DataError(
             f"{path} is damaged or another version: its SHA-256 must be {source.sha256}, but is {sha256}. "
-            f"Replace it by {source.url}, or take it away to have that downloaded"
+            f"Replace it with {source.url}, or remove it to have that downloaded"
         )
     return path
 
 
-def _downloaded(source, cache):
-    import pooch  # here, since it takes as long to import as all the rest, and most sessions need no download
+def _downloaded(source: Source, cache: Path | None) -> Path:
+    import pooch  # imported here: it takes as long as everything else together, and most sessions download nothing
 
     cache = Path(pooch.os_cache("seiswidgets") if cache is None else cache)
     try:
-        found = pooch.retrieve(source.url, known_hash=f"sha256:{source.sha256}", fname=source.name, path=cache)
-    except (OSError, ValueError) as error:  # pooch's word for a hash that differs is ValueError
+        path = pooch.retrieve(source.url, known_hash=f"sha256:{source.sha256}", fname=source.name, path=cache)
+    except (OSError, ValueError) as error:  # pooch raises ValueError if the hash differs
         raise DataError(_out_of_reach(source, cache, error)) from error
-    return Path(found)
+    return Path(path)
 
 
-def _out_of_reach(source, cache, error):
+def _out_of_reach(source: Source, cache: Path, error: Exception) -> str:
     value = os.environ.get(FOLDER_VARIABLE)
-    looked = f"the folder {value} ({FOLDER_VARIABLE})" if value else f"a folder of yours ({FOLDER_VARIABLE} is not set)"
+    folder = f"the folder {value} ({FOLDER_VARIABLE})" if value else f"your own folder ({FOLDER_VARIABLE} is not set)"
     return (
-        f"{source.name} is neither in {looked} nor in the cache {cache}, and could not be downloaded. "
-        f"Fetch it by hand from {source.url} and put it into {cache}, or into a folder that {FOLDER_VARIABLE} names. "
-        f"The download ended with {type(error).__name__}: {error}"
+        f"{source.name} is neither in {folder} nor in the cache {cache}, and could not be downloaded. "
+        f"Download it from {source.url} and put it into {cache}, or into another folder and set {FOLDER_VARIABLE} "
+        f"to that folder. The download failed with {type(error).__name__}: {error}"
     )
 
 
 def read_ascii_inline(path: Path, shape: tuple[int, int]) -> np.ndarray:
-    """Amplitudes of an inline exported as text: a line a trace, its inline and crossline number, then its samples.
+    """Read an inline exported as text: one line per trace, with its inline and crossline numbers, then its samples.
 
-    Traces are put in the order of their crosslines, which must follow each other without a gap.
+    Traces are sorted by crossline; no crossline may be missing.
 
     Parameters
     ----------
     path : Path
-        The text file.
     shape : (int, int)
-        Number of samples and of traces, (nz, nx), that it must hold.
+        Number of samples and traces, (nz, nx), that it must hold.
 
     Returns
     -------
@@ -202,33 +200,32 @@ def read_ascii_inline(path: Path, shape: tuple[int, int]) -> np.ndarray:
     Raises
     ------
     DataError
-        If the file does not hold numbers, or not that many, or lacks or repeats a crossline.
+        If the file does not hold that many numbers, or a crossline is missing or repeated.
     """
     nz, nx = shape
     try:
         lines = np.loadtxt(path, dtype=np.float32, ndmin=2)
     except ValueError as error:
-        raise DataError(f"{path} is not a text of {nx} traces of equal length: {error}") from error
+        raise DataError(f"{path} is not a text file of {nx} traces of equal length: {error}") from error
     if lines.shape != (nx, nz + 2):
         raise DataError(
             f"{path} must hold {nx} lines of {nz + 2} numbers (inline, crossline, {nz} samples), "
-            f"but holds {lines.shape[0]} of {lines.shape[1]}; it was cut short, or is another version"
+            f"but holds {lines.shape[0]} lines of {lines.shape[1]}; it is truncated, or another version"
         )
     traces = lines[np.argsort(lines[:, 1])]
     if not (np.diff(traces[:, 1]) == 1).all():
-        raise DataError(f"{path} lacks a crossline between the first and the last, or holds one twice")
+        raise DataError(f"{path} lacks a crossline between its first and last one, or holds one twice")
     return np.ascontiguousarray(traces[:, 2:].T)
 
 
 def read_raw_traces(path: Path, shape: tuple[int, int]) -> np.ndarray:
-    """Amplitudes of a file that is nothing but big-endian 32-bit floats, trace by trace.
+    """Read a file of big-endian 32-bit floats, trace by trace, without headers.
 
     Parameters
     ----------
     path : Path
-        The binary file.
     shape : (int, int)
-        Number of samples and of traces, (nz, nx), that it must hold.
+        Number of samples and traces, (nz, nx), that it must hold.
 
     Returns
     -------
@@ -244,7 +241,7 @@ def read_raw_traces(path: Path, shape: tuple[int, int]) -> np.ndarray:
     if size != expected:
         raise DataError(
             f"{path} must hold {expected} bytes ({nx} traces of {nz} samples of 4 bytes), but holds {size}; "
-            "it was cut short, or is another version"
+            "it is truncated, or another version"
         )
     traces = np.fromfile(path, dtype=">f4").reshape(nx, nz)
     return np.ascontiguousarray(traces.T, dtype=np.float32)

@@ -1,27 +1,29 @@
-"""Paths as users give them, files written whole or not at all, and packages that only some files need."""
+"""Paths given by users, atomic writing, and packages that only some files need."""
 
 import contextlib
 import os
+from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from reprlib import repr as brief
 from tempfile import mkdtemp
+from types import ModuleType
 
 from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
 
 
 def user_path(path: str | PathLike) -> Path:
-    """A path, with the home folder in the place of ~.
+    """Expand ``~`` to the home folder.
 
     Raises
     ------
     DataError
-        If it is none, or there is no such home.
+        If it is not a path, or there is no such home folder.
     """
     if not isinstance(path, str | PathLike) or path == "":
-        raise DataError(f"a path must be a text or a Path that names a file, but is {brief(path)}")
+        raise DataError(f"a path must be a string or a Path that names a file, but is {brief(path)}")
     try:
         return Path(path).expanduser()
     except RuntimeError as error:
@@ -29,53 +31,54 @@ def user_path(path: str | PathLike) -> Path:
 
 
 def existing_file(path: str | PathLike) -> Path:
-    """The path of a file that is there.
+    """Path of an existing file.
 
     Raises
     ------
     DataError
-        If there is none.
+        If there is no such file.
     """
     path = user_path(path)
     try:
         if not path.exists():
-            raise DataError(f"{path} is not there; check its name and folder")
+            raise DataError(f"{path} does not exist; check its name and folder")
+        if path.is_dir():
+            raise DataError(f"{path} is a folder; give the path of a file")
         if not path.is_file():
-            raise DataError(f"{path} is {'a folder' if path.is_dir() else 'no file'}; give the path of a file")
-    except (OSError, ValueError) as error:  # of names that cannot be a file's
+            raise DataError(f"{path} is not a regular file; give the path of a file")
+    except (OSError, ValueError) as error:  # names that the system does not allow
         if isinstance(error, DataError):
             raise
-        reason = getattr(error, "strerror", None) or error
-        raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {reason}; correct it") from error
+        raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {_reason(error)}; correct it") from error
     return path
 
 
-def checked_path(path, suffixes: tuple[str, ...]) -> Path:
-    """The path of a file to write, by one of the endings that say its kind.
+def output_path(path: str | PathLike, suffixes: tuple[str, ...]) -> Path:
+    """Path of a file to write, whose suffix selects the format.
 
     Raises
     ------
     SettingError
-        If it ends otherwise.
+        If the suffix is not one of these.
     DataError
         If it cannot be a path.
     """
     path = user_path(path)
     if path.suffix.lower() not in suffixes:
-        raise SettingError(f"{path} must end in {' or '.join(suffixes)}, which says what kind of file it becomes")
+        raise SettingError(f"{path} must end in {' or '.join(suffixes)}, which selects the file format")
     return path
 
 
 @contextmanager
-def written(path: Path):
-    """A place to write a file's content to; what stood at the path is replaced only when all of it is on the disk.
+def atomic_write(path: Path) -> Iterator[Path]:
+    """Yield a temporary path to write to, which replaces the file only once it is completely on disk.
 
-    Where the path is a link, the file that it leads to is replaced.
+    If the path is a link, the file that it leads to is replaced.
 
     Raises
     ------
     DataError
-        If the folder is missing, cannot be written to, or is full.
+        If the folder is missing, not writable, or full.
     """
     try:
         target = Path(os.path.realpath(path))
@@ -83,40 +86,43 @@ def written(path: Path):
         draft = folder / target.name
         try:
             yield draft
-            _settle(draft)
+            _sync(draft)
             os.replace(draft, target)
         finally:
             draft.unlink(missing_ok=True)
             folder.rmdir()
-    except (OSError, ValueError) as error:  # ValueError: a name that cannot be a file's
+    except (OSError, ValueError) as error:  # ValueError: a name that the system does not allow
         if isinstance(error, SeiswidgetsError):
             raise
-        reason = getattr(error, "strerror", None) or error
         raise DataError(
-            f"{path} cannot be written: {reason}; make room, or choose a folder that exists and that you may write to. "
-            "What stood there is unchanged"
+            f"{path} cannot be written: {_reason(error)}; free some space, or choose an existing folder that you may "
+            "write to. Any older file of that name is unchanged"
         ) from error
     with contextlib.suppress(OSError):
-        _settle(target.parent)  # lets the move itself survive a power cut, where the system can do that
+        _sync(target.parent)  # lets the move itself survive a power cut, where the system supports that
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file as `written` does."""
-    with written(path) as draft:
+def write_file(path: Path, content: bytes) -> None:
+    """Write a file with `atomic_write`."""
+    with atomic_write(path) as draft:
         draft.write_bytes(content)
 
 
-def _settle(path):
-    """Wait until a file or folder is on the disk."""
-    handle = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)  # Windows settles no file that is only read
+def _reason(error: Exception) -> object:
+    return getattr(error, "strerror", None) or error
+
+
+def _sync(path: Path) -> None:
+    """Wait until a file or folder is on disk."""
+    handle = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)  # Windows does not sync read-only files
     try:
         os.fsync(handle)
     finally:
         os.close(handle)
 
 
-def required(package: str, purpose: str):
-    """A package of the extra ``files``, imported; ``purpose`` says for what it is needed, as "to read line.sgy".
+def import_optional(package: str, purpose: str) -> ModuleType:
+    """Import a package of the extra ``files``; ``purpose`` says what it is needed for, e.g. "to read line.sgy".
 
     Raises
     ------
@@ -127,6 +133,6 @@ def required(package: str, purpose: str):
         return import_module(package)
     except ModuleNotFoundError as error:
         raise DataError(
-            f"{purpose} takes the package {package}, which is not installed: pip install {package}, "
-            'or "seiswidgets[files]" for all that files may need'
+            f"{purpose} requires the package {package}, which is not installed: pip install {package}, "
+            'or "seiswidgets[files]" for everything that files may need'
         ) from error

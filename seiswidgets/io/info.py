@@ -1,38 +1,39 @@
-"""What a file holds, as far as can be told without reading it all."""
+"""Summary of a section file, made without reading all of it."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
-HEIGHT = "z_unit or velocity"  # what may be needed: either will do
+from seiswidgets.geology.findings import Finding
+
+TIME_OR_DEPTH = "z_unit or velocity"  # an entry of ``needed``: either will do
 
 
 @dataclass(frozen=True)
 class SectionInfo:
-    """What a file holds, before it is opened: enough for a user to make the choices that it takes.
+    """Contents of a section file before it is opened: enough to choose the options that it needs.
 
     Attributes
     ----------
     path : Path
     kind : "SEG-Y", "picture", "array" or "text"
     format : str
-        Of its samples, in words: "IBM float, 4 bytes, big-endian".
+        Sample format in words: "IBM float, 4 bytes, big-endian".
     size : int
-        Of the file, in bytes.
+        Size of the file, in bytes.
     shape : (int, int)
-        Samples and traces, (nz, nx), of all of it.
+        Number of samples and traces, (nz, nx), of the whole file.
     needed : tuple of str
-        The choices that ``open_section`` needs beside the path; "z_unit or velocity" where either will do.
+        Options that ``open_section`` needs besides the path; "z_unit or velocity" where either will do.
     dx, dz, z0 : float or None
-        Where the file says so: in the unit of its positions; and in ms of time, or m of depth.
+        What the file states: dx in the unit of its positions, dz and z0 in ms of time or m of depth.
     x_unit : str or None
     inlines, crosslines : (first, last, count) or None
-        Of a volume.
+        Lines of a volume.
     header : str
-        SEG-Y's textual header, decoded; lines of a stranger, to be escaped wherever they are shown.
-    reasons : tuple of str
-        Why a spacing or an origin cannot be told: positions that are missing, uneven or implausible, say.
-    notes : tuple of str
-        What was read in another way than the headers claim, or is unusual.
+        SEG-Y's textual header, decoded. Untrusted text: escape it wherever it is shown.
+    findings : tuple of Finding
+        A "problem" says why a spacing or an origin cannot be determined (positions that are missing or uneven, for
+        example), a "warning" why one is doubtful.
     """
 
     path: Path
@@ -48,11 +49,10 @@ class SectionInfo:
     inlines: tuple[int, int, int] | None = None
     crosslines: tuple[int, int, int] | None = None
     header: str = ""
-    reasons: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
     def middle(self, name: str) -> int | None:
-        """The number of the inline or the crossline in the middle of a volume; None where there is no telling."""
+        """Number of a volume's middle inline or crossline, or None if the file is not a volume."""
         lines = {"inline": self.inlines, "crossline": self.crosslines}[name]
         if lines is None:
             return None

@@ -1,26 +1,37 @@
-"""A section from a file of any kind that we know."""
+"""Opening and previewing section files of every supported format."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from os import PathLike
+from pathlib import Path
+from typing import NamedTuple, Unpack
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.files import existing_file
 from seiswidgets.io.info import SectionInfo
-from seiswidgets.io.options import OpenOptions, Progress, tell
+from seiswidgets.io.options import OpenKeywords, OpenOptions, Progress, report_progress
 from seiswidgets.io.rasters.arrays import open_array, open_text, preview_array, preview_text
 from seiswidgets.io.rasters.images import open_picture, preview_picture
 from seiswidgets.io.segy.layout import begins_like_segy
 from seiswidgets.io.segy.reading import open_segy, preview_segy
+from seiswidgets.signatures import strict_keywords
+
+
+class Reader(NamedTuple):
+    """Functions that open and preview one kind of file."""
+
+    open: Callable[[Path, OpenOptions, Progress | None], Section]
+    preview: Callable[[Path, OpenOptions], SectionInfo]
+
 
 READERS = {
-    "SEG-Y": (open_segy, preview_segy),
-    "picture": (open_picture, preview_picture),
-    "array": (open_array, preview_array),
-    "text": (open_text, preview_text),
+    "SEG-Y": Reader(open_segy, preview_segy),
+    "picture": Reader(open_picture, preview_picture),
+    "array": Reader(open_array, preview_array),
+    "text": Reader(open_text, preview_text),
 }
-BEGINNINGS = {  # of a file's content
+SIGNATURES = {  # first bytes of a file
     b"\x89PNG": "picture",
     b"\xff\xd8\xff": "picture",
     b"II*\0": "picture",
@@ -38,99 +49,68 @@ SUFFIXES = {
 }
 
 
-def open_section(
-    path: str | PathLike,
-    *,
-    dx: float | None = None,
-    dz: float | None = None,
-    x0: float | None = None,
-    z0: float | None = None,
-    extent: tuple[float, float, float, float] | None = None,
-    x_unit: str | None = None,
-    z_unit: str | None = None,
-    velocity: float | None = None,
-    name: str | None = None,
-    credit: str | None = None,
-    inline: int | None = None,
-    crossline: int | None = None,
-    traces: slice | range | None = None,
-    header_bytes: Mapping[str, int] | None = None,
-    progress: Progress | None = None,
-) -> Section:
-    """A section from a file: SEG-Y, a picture (PNG, JPEG, TIFF), NumPy's .npy or .npz, or a matrix of text.
+@strict_keywords
+def open_section(path: str | PathLike, *, progress: Progress | None = None, **options: Unpack[OpenKeywords]) -> Section:
+    """Open a section file: SEG-Y, an image (PNG, JPEG, TIFF), NumPy's .npy or .npz, or a text matrix.
 
-    The kind is told by the content, and by the suffix where the content does not say. What neither the file nor the
-    user says is asked for by an error. ``preview`` tells beforehand what a file holds and needs.
+    The format is recognised by the content, or by the suffix where the content is ambiguous. If neither the file nor
+    an option gives a value that is needed, the error names it. ``preview`` shows what a file holds and which options
+    it needs.
 
     Parameters
     ----------
     path : str or Path
-    dx, dz, x0, z0 : float, optional
-        Spacing and origin as in ``Section``; over what the file says. Of SEG-Y, dx is else measured between the
-        positions of the traces, which must be even.
-    extent : (x_min, x_max, z_min, z_max), optional
-        Of a picture or a matrix, in place of spacing and origin: places of the first and the last trace and sample,
-        which are the centres of its corners.
-    x_unit : str, optional
-        Of dx or of the file's positions: metres, or feet where a SEG-Y file says so.
-    z_unit : str, optional
-        "m", "ft" or "km" if z is a depth; "ms" (taken when a velocity is given) or "s" if it is a two-way time.
-    velocity : float, optional
-        In m/s; time needs it.
-    name, credit : str, optional
-        As in ``Section``; the file's name if left out.
-    inline, crossline : int, optional
-        Which line of a SEG-Y volume.
-    traces : slice or range, optional
-        Which traces of a SEG-Y file, counted from 0, whatever line they belong to.
-    header_bytes : dict, optional
-        At which byte of SEG-Y's trace header "x", "y", "scalar" (of both), "inline" and "crossline" stand, counted
-        from 1; else at 181, 185, 71, 189, 193, where the standard has them.
     progress : callable(share), optional
-        Called while a file is read, with the share done; returning False cancels.
+        Called with the share done while a file is read; returning False cancels.
+    dx, dz, x0, z0 : float, optional
+        Spacing and origin as in ``Section``; they take precedence over the file's. If left out, dx of SEG-Y is
+        measured between the positions of the traces, which must be evenly spaced.
+    extent : (x_min, x_max, z_min, z_max), optional
+        For an image or a matrix, instead of spacing and origin: positions of the first and last trace and sample,
+        which are the centres of its corner cells.
+    x_unit : str, optional
+        Unit of dx or of the file's positions: metres, or feet where a SEG-Y file says so.
+    z_unit : str, optional
+        "m", "ft" or "km" if z is a depth; "ms" (the default when a velocity is given) or "s" if it is a two-way time.
+    velocity : float, optional
+        Seismic velocity in m/s; needed for time.
+    name, credit : str, optional
+        As in ``Section``; the name defaults to the file's name.
+    inline, crossline : int, optional
+        Number of the line to take from a SEG-Y volume.
+    traces : slice or range, optional
+        Traces to take from a SEG-Y file, counted from 0, whichever line they belong to.
+    header_bytes : dict, optional
+        Positions in SEG-Y's trace header, counted from byte 1, of "x", "y", "scalar" (for both), "inline" and
+        "crossline"; by default 181, 185, 71, 189 and 193, as in the standard.
 
     Raises
     ------
     DataError
-        If the file is missing, damaged, too large, of no kind that we know, or lacks what was not given; or if a
-        package that it takes is not installed.
+        If the file is missing, damaged, too large, in an unsupported format, or lacks a value that was not given; or
+        if a package that it needs is not installed.
     SettingError, SectionError
-        If a choice is missing or cannot be.
+        If an option is missing or invalid.
     Cancelled
         If ``progress`` returned False.
     """
     path = existing_file(path)
-    choices = OpenOptions(
-        dx=dx,
-        dz=dz,
-        x0=x0,
-        z0=z0,
-        extent=extent,
-        x_unit=x_unit,
-        z_unit=z_unit,
-        velocity=velocity,
-        name=name,
-        credit=credit,
-        inline=inline,
-        crossline=crossline,
-        traces=traces,
-        header_bytes=header_bytes,
-    )
-    with _readable(path):
-        open_it, _ = READERS[_kind(path)]
-        section = open_it(path, choices, progress)
-    tell(progress, 1.0)
+    checked = OpenOptions(**options)
+    with _read_errors_as_data_errors(path):
+        section = READERS[_kind(path)].open(path, checked, progress)
+    report_progress(progress, 1.0)
     return section
 
 
+@strict_keywords
 def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = None) -> SectionInfo:
-    """What a file holds and which choices it needs, without reading it all.
+    """Summarise a section file and the options that it needs, without reading all of it.
 
     Parameters
     ----------
     path : str or Path
     header_bytes : dict, optional
-        Of SEG-Y, as for ``open_section``.
+        For SEG-Y, as for ``open_section``.
 
     Raises
     ------
@@ -138,26 +118,25 @@ def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = No
         As for ``open_section``.
     """
     path = existing_file(path)
-    with _readable(path):
-        _, preview_it = READERS[_kind(path)]
-        return preview_it(path, OpenOptions(header_bytes=header_bytes))
+    with _read_errors_as_data_errors(path):
+        return READERS[_kind(path)].preview(path, OpenOptions(header_bytes=header_bytes))
 
 
 def kind_of(path: str | PathLike) -> str:
-    """The kind of a file: "SEG-Y", "picture", "array" or "text".
+    """Kind of a section file: "SEG-Y", "picture", "array" or "text".
 
     Raises
     ------
     DataError
-        If the file is missing, or of no kind that we know.
+        If the file is missing or in an unsupported format.
     """
     path = existing_file(path)
-    with _readable(path):
+    with _read_errors_as_data_errors(path):
         return _kind(path)
 
 
 @contextmanager
-def _readable(path):
+def _read_errors_as_data_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
@@ -166,31 +145,31 @@ def _readable(path):
         raise DataError(f"{path} cannot be read: {error}") from error
 
 
-def _kind(path):
-    """The kind of a file: by how it begins, by its suffix, or as text where it looks like one."""
+def _kind(path: Path) -> str:
+    """Recognise a file by its first bytes, then by its suffix, or as text where it looks like numbers."""
     with path.open("rb") as file:
         head = file.read(4096)
     if not head:
-        raise DataError(f"{path} is empty; copy it again from where it came")
-    for beginning, kind in BEGINNINGS.items():
-        if head.startswith(beginning):
+        raise DataError(f"{path} is empty; copy it again from its source")
+    for signature, kind in SIGNATURES.items():
+        if head.startswith(signature):
             return kind
-    kind = SUFFIXES.get(path.suffix.lower())
-    if kind in ("SEG-Y", "text"):
-        return kind
-    if kind is not None:
+    by_suffix = SUFFIXES.get(path.suffix.lower())
+    if by_suffix in ("SEG-Y", "text"):
+        return by_suffix
+    if by_suffix is not None:
         raise DataError(
-            f"{path} is called {path.suffix}, but does not begin like one; it is damaged, or misnamed: save it anew"
+            f"{path} has the suffix {path.suffix}, but does not begin like such a file; it is damaged or misnamed: "
+            "save it again"
         )
     if begins_like_segy(head):
         return "SEG-Y"
-    if _looks_like_text(head):
+    if _looks_like_numbers(head):
         return "text"
     raise DataError(
-        f"{path} is of no kind that is read here; convert it to SEG-Y, PNG, JPEG, TIFF, .npy, .npz or a text of numbers"
+        f"{path} is in an unsupported file format; convert it to SEG-Y, PNG, JPEG, TIFF, .npy, .npz or a text matrix"
     )
 
 
-def _looks_like_text(head):
-    """Whether a file begins with nothing but what numbers are written with."""
+def _looks_like_numbers(head: bytes) -> bool:
     return set(head[:1000]) <= set(b"0123456789+-.eE,;nNaA \t\r\n")

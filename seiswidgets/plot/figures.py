@@ -1,7 +1,10 @@
-"""Whole figures: what a stage has done to the rock, and all of a restoration."""
+"""Whole figures: the deformation by a stage, and a complete restoration."""
+
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
@@ -10,19 +13,21 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLoca
 from seiswidgets.core.deformation import AREA_RATIO_COLOURS, area_ratio_histogram, colour_span, weighted_percentiles
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
-from seiswidgets.plot.frame import WIDTH, Window, framed
+from seiswidgets.plot.frame import WIDTH, PlotFrame, Window, plot_frame
 from seiswidgets.plot.panels import (
-    DONE,
+    ACTIONS,
     amplitude_limit,
-    carried,
-    chosen_stage,
     draw_picks,
     draw_section,
-    titled,
-    up_to,
+    first_stages,
+    panel_title,
+    restored_picks,
+    select_stage,
 )
+from seiswidgets.signatures import strict_keywords
 
 
+@strict_keywords
 def deformation(
     restored: Restoration,
     interpretation: Interpretation | None = None,
@@ -32,7 +37,7 @@ def deformation(
     exaggeration: float | None = None,
     window: Window | None = None,
 ) -> Figure:
-    """What a stage has done to the rock: the map of its area ratio and the histogram (the paper's fig. 6d).
+    """Draw the deformation by a stage: a map of the area ratio and its histogram (the paper's fig. 6d).
 
     Parameters
     ----------
@@ -40,27 +45,28 @@ def deformation(
     interpretation : Interpretation, optional
         Its picks are drawn as black lines.
     stage : int
-        Which one, counted from 0; the last one if left out.
+        Index of the stage; the last one if left out.
     span : float, optional
-        The colours run from 1 / span to span. If left out, such that hardly any lies beyond.
+        The colours run from 1 / span to span. If left out, it is chosen such that almost nothing lies beyond.
     exaggeration, window
         As described for this module.
 
     Raises
     ------
     SettingError
-        If there is no such stage, or the span, the exaggeration or the window cannot be.
+        If there is no such stage, or the span, the exaggeration or the window is invalid.
     """
-    number, _ = chosen_stage(restored, stage)
-    shown = up_to(restored, number + 1)
-    frame = framed(restored.original, [shown.section], exaggeration, window)
-    size = WIDTH, max(2.8, 0.66 * WIDTH * frame.shape + 1.0)
-    figure, (on_the_left, on_the_right) = plt.subplots(1, 2, figsize=size, width_ratios=(2.6, 1), layout="constrained")
-    _draw_deformation(on_the_left, on_the_right, shown, interpretation, frame, span)
-    frame.put_footnote_below(figure)
+    index, _ = select_stage(restored, stage)
+    shown = first_stages(restored, index + 1)
+    frame = plot_frame(restored.original, [shown.section], exaggeration, window)
+    size = WIDTH, max(2.8, 0.66 * WIDTH * frame.height_over_width + 1.0)
+    figure, (left, right) = plt.subplots(1, 2, figsize=size, width_ratios=(2.6, 1), layout="constrained")
+    _draw_deformation(left, right, shown, interpretation, frame, span)
+    frame.add_footnote_below(figure)
     return figure
 
 
+@strict_keywords
 def workflow(
     restored: Restoration,
     interpretation: Interpretation | None = None,
@@ -73,106 +79,112 @@ def workflow(
     window: Window | None = None,
     figure: Figure | None = None,
 ) -> Figure:
-    """The whole of a restoration, as the paper's fig. 6: the section as picked, after each stage, and the deformation.
+    """Draw a whole restoration like the paper's fig. 6: the picked section, each stage's result, and the deformation.
 
-    All pictures show the same window. The deformation is that of one stage, the last if left out; other keywords as for
-    ``section`` and ``deformation``.
+    All panels show the same window. The deformation is that of one stage, the last if left out; other keywords are as
+    for ``section`` and ``deformation``.
 
     Parameters
     ----------
     figure : Figure, optional
-        An empty one to draw on, whose size is set, as for work on a thread; one of pyplot's if left out.
+        An empty figure to draw on, for example on a thread; its size is set. If left out, pyplot makes one.
 
     Raises
     ------
     SettingError
         If nothing has been restored yet, or a keyword is out of its range.
     """
-    number, _ = chosen_stage(restored, stage)
-    steps = [up_to(restored, count) for count in range(len(restored.stages) + 1)]
-    frame = framed(restored.original, [step.section for step in steps], exaggeration, window)
+    index, _ = select_stage(restored, stage)
+    steps = [first_stages(restored, count) for count in range(len(restored.stages) + 1)]
+    frame = plot_frame(restored.original, [step.section for step in steps], exaggeration, window)
     limit = amplitude_limit(restored.original, clip)
     figure = plt.figure() if figure is None else figure
-    pictures, histogram = _panels(figure, len(steps) + 1, frame)
-    for ax, step in zip(pictures[:-1], steps, strict=True):
+    panels, histogram = _make_panels(figure, len(steps) + 1, frame)
+    for ax, step in zip(panels[:-1], steps, strict=True):
         draw_section(ax, step, limit, cmap)
-        frame.put_on(ax, titled(step))
+        frame.apply_to(ax, panel_title(step))
         draw_picks(ax, step, interpretation, frame)
-    _draw_deformation(pictures[-1], histogram, steps[number + 1], interpretation, frame, span)
-    for letter, ax in zip("abcdefghijklmnopqrstuvwxyz", pictures, strict=False):
+    _draw_deformation(panels[-1], histogram, steps[index + 1], interpretation, frame, span)
+    for letter, ax in zip("abcdefghijklmnopqrstuvwxyz", panels, strict=False):
         ax.set_title(f"({letter}) {ax.get_title(loc='left')}", loc="left", fontsize="medium")
-    _with_outer_labels_only(pictures)
-    frame.put_footnote_below(figure)
+    _keep_outer_labels(panels)
+    frame.add_footnote_below(figure)
     return figure
 
 
-def _panels(figure, count, frame):
-    """Axes of so many pictures, in two columns, and of a histogram: in the cell that is left over, or below."""
+def _make_panels(figure: Figure, count: int, frame: PlotFrame) -> tuple[list[Axes], Axes]:
+    """Axes of ``count`` panels in two columns, and of a histogram, in the cell that is left over or below."""
     rows = -(-count // 2)
-    low = count % 2 == 0
-    heights = [max(1.6, 0.44 * WIDTH * frame.shape)] * rows + [1.4] * low
+    below = count % 2 == 0
+    heights = [max(1.6, 0.44 * WIDTH * frame.height_over_width)] * rows + [1.4] * below
     figure.set(size_inches=(WIDTH, sum(heights) + 0.3 * rows + 1.2), layout_engine="compressed")
     grid = figure.add_gridspec(len(heights), 2, height_ratios=heights)
-    pictures = [figure.add_subplot(grid[number // 2, number % 2]) for number in range(count)]
-    return pictures, figure.add_subplot(grid[-1, :] if low else grid[-1, 1])
+    panels = [figure.add_subplot(grid[index // 2, index % 2]) for index in range(count)]
+    return panels, figure.add_subplot(grid[-1, :] if below else grid[-1, 1])
 
 
-def _with_outer_labels_only(pictures):
-    """Take off the labels of pictures that have the same axis to their left or below them."""
-    for number, ax in enumerate(pictures):
-        if number % 2:
+def _keep_outer_labels(panels: list[Axes]) -> None:
+    """Remove the labels of panels that have the same axis to their left or below them."""
+    for index, ax in enumerate(panels):
+        if index % 2:
             ax.set_ylabel("")
             ax.tick_params(labelleft=False)
-        if number < len(pictures) - 2:
+        if index < len(panels) - 2:
             ax.set_xlabel("")
             ax.tick_params(labelbottom=False)
 
 
-def _draw_deformation(ax, histogram, restored, interpretation, frame, span):
-    """The map of the last stage's area ratio, and the histogram, which stands on the colour bar of both."""
+def _draw_deformation(
+    ax: Axes,
+    histogram: Axes,
+    restored: Restoration,
+    interpretation: Interpretation | None,
+    frame: PlotFrame,
+    span: float | None,
+) -> None:
+    """Draw the map of the last stage's area ratio, and the histogram on the colour bar of both."""
     stage = restored.stages[-1]
     percentiles = weighted_percentiles(stage.area_ratio, stage.mesh.areas, (1, 50, 99))
     span = colour_span(stage.area_ratio, stage.mesh.areas) if span is None else span
     bins, shares = area_ratio_histogram(stage.area_ratio, stage.mesh.areas, span=span)
     colours = ScalarMappable(LogNorm(1 / span, span), AREA_RATIO_COLOURS)
     _draw_map(ax, restored, interpretation, colours)
-    frame.put_on(ax, f"deformation by {DONE[stage.kind]}")
+    frame.apply_to(ax, f"deformation by {ACTIONS[stage.kind]}")
     _draw_histogram(histogram, bins, shares, colours)
+    _draw_colour_bar(histogram, colours, span)
     low, median, high = (f"{value:.3f}" for value in percentiles)
     histogram.set_title(f"median {median}\n98% of the area from {low} to {high}", loc="left", fontsize=8.5)
 
 
-def _draw_map(ax, restored, interpretation, colours):
-    """Each triangle where it lies after the last stage, in the colour of its area ratio."""
+def _draw_map(ax: Axes, restored: Restoration, interpretation: Interpretation | None, colours: ScalarMappable) -> None:
+    """Draw each triangle after the last stage, in the colour of its area ratio."""
     stage = restored.stages[-1]
     x, z = restored.original.from_rock(stage.vertices).T
-    look = {"norm": colours.norm, "cmap": colours.cmap, "edgecolors": "face", "linewidth": 0.3}
+    look: dict[str, Any] = {"norm": colours.norm, "cmap": colours.cmap, "edgecolors": "face", "linewidth": 0.3}
     ax.tripcolor(x, z, stage.mesh.triangles, facecolors=stage.area_ratio, **look)
-    for _, lines in carried(restored, interpretation):
+    for _, lines in restored_picks(restored, interpretation):
         for line in lines:
             ax.plot(*line.T, color="black", linewidth=0.8)
 
 
-def _draw_histogram(ax, bins, shares, colours):
-    """Bars of the share of the area, which stand on the colour bar as their axis."""
-    middles = np.sqrt(bins[:-1] * bins[1:])
-    look = {"color": colours.to_rgba(middles), "edgecolor": "0.5", "linewidth": 0.3}
-    ax.bar(bins[:-1], shares, np.diff(bins), align="edge", **look)
+def _draw_histogram(ax: Axes, bins: np.ndarray, shares: np.ndarray, colours: ScalarMappable) -> None:
+    """Draw bars for the shares of the area; the colour bar becomes their axis."""
+    centres = np.sqrt(bins[:-1] * bins[1:])
+    widths = np.diff(bins)
+    ax.bar(bins[:-1], shares, widths, align="edge", color=colours.to_rgba(centres), edgecolor="0.5", linewidth=0.3)
     ax.set(xscale="log", xlim=bins[[0, -1]], ylabel="share of the area")
     ax.yaxis.set_major_locator(MaxNLocator(4))
     ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:.3g}%"))
     ax.spines[["top", "right"]].set_visible(False)
     ax.xaxis.set_major_locator(NullLocator())
     ax.xaxis.set_minor_locator(NullLocator())
-    side = {"transform": ax.transAxes, "va": "top", "fontsize": 8.5}
-    ax.text(0.01, 0.97, "dilatation", color=colours.cmap(0.1), ha="left", **side)
-    ax.text(0.99, 0.97, "compression", color=colours.cmap(0.9), ha="right", **side)
-    _draw_colour_bar(ax, colours)
+    for x, text, shade, side in ((0.01, "dilatation", 0.1, "left"), (0.99, "compression", 0.9, "right")):
+        ax.text(x, 0.97, text, color=colours.cmap(shade), ha=side, va="top", fontsize=8.5, transform=ax.transAxes)
 
 
-def _draw_colour_bar(ax, colours):
-    bar = ax.figure.colorbar(colours, cax=ax.inset_axes([0, -0.1, 1, 0.09]), orientation="horizontal")
+def _draw_colour_bar(ax: Axes, colours: ScalarMappable, span: float) -> None:
+    bar = ax.figure.colorbar(colours, cax=ax.inset_axes((0, -0.1, 1, 0.09)), orientation="horizontal")
     bar.ax.xaxis.set_minor_locator(NullLocator())
-    bar.ax.xaxis.set_major_locator(FixedLocator([colours.norm.vmin, 1, colours.norm.vmax]))
+    bar.ax.xaxis.set_major_locator(FixedLocator([1 / span, 1, span]))
     bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
     bar.set_label("initial area / final area")

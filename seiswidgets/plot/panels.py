@@ -1,6 +1,7 @@
-"""Pictures of one Axes: a section and a restored one, with picks, and the mesh."""
+"""Drawings on one Axes: a section, a restored section with picks, and the mesh."""
 
 from dataclasses import replace
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -8,17 +9,19 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from seiswidgets.errors import SettingError
-from seiswidgets.geology.picks import Fault, Interpretation
+from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
-from seiswidgets.plot.frame import AS_IT_IS, OUTSIDE, PlotFrame, Window, edges, framed
+from seiswidgets.plot.frame import NO_DATA, PLAIN_TEXT, PlotFrame, Window, edges, plot_frame
+from seiswidgets.signatures import strict_keywords
 
-FAULT, HORIZON, MESH = "#d7191c", "#1565d8", "#e8a400"
-DONE = {"unfault": "unfaulting", "flatten": "flattening"}
+FAULT_COLOUR, HORIZON_COLOUR, MESH_COLOUR = "#d7191c", "#1565d8", "#e8a400"
+ACTIONS = {"unfault": "unfaulting", "flatten": "flattening"}
 HALO = [withStroke(linewidth=3, foreground="white", alpha=0.75)]
 
 
+@strict_keywords
 def section(
     section: Section,
     interpretation: Interpretation | None = None,
@@ -29,7 +32,7 @@ def section(
     exaggeration: float | None = None,
     window: Window | None = None,
 ) -> Axes:
-    """A section, z down, with its faults in red and its horizons in blue.
+    """Draw a section, z down, with its faults in red and its horizons in blue.
 
     Parameters
     ----------
@@ -37,22 +40,23 @@ def section(
     interpretation : Interpretation, optional
     ax : Axes, optional
     clip : float
-        Percentile of the absolute amplitudes at which the colours end, on both sides of 0.
+        Percentile of the absolute amplitudes at which the colours end, symmetrically about 0.
     cmap : str
-        A colour map of matplotlib.
+        A matplotlib colour map.
     exaggeration, window
         As described for this module.
 
     Raises
     ------
     SettingError
-        If the clip, the exaggeration or the window cannot be.
+        If the clip, the exaggeration or the window is invalid.
     """
     return restoration(
         Restoration(section), interpretation, ax, clip=clip, cmap=cmap, exaggeration=exaggeration, window=window
     )
 
 
+@strict_keywords
 def restoration(
     restored: Restoration,
     interpretation: Interpretation | None = None,
@@ -63,19 +67,20 @@ def restoration(
     exaggeration: float | None = None,
     window: Window | None = None,
 ) -> Axes:
-    """The restored section, with picks of the original carried along; keywords as for ``section``.
+    """Draw the restored section, with the original's picks restored too; keywords as for ``section``.
 
-    Its grey tones are those of the original, so that both compare.
+    Its grey tones are those of the original, so that both can be compared.
     """
-    frame = framed(restored.original, [restored.section], exaggeration, window)
-    ax = ax or frame.axes()
+    frame = plot_frame(restored.original, [restored.section], exaggeration, window)
+    ax = ax or frame.new_axes()
     draw_section(ax, restored, amplitude_limit(restored.original, clip), cmap)
-    frame.put_on(ax, titled(restored))
+    frame.apply_to(ax, panel_title(restored))
     draw_picks(ax, restored, interpretation, frame)
-    frame.put_footnote(ax)
+    frame.add_footnote(ax)
     return ax
 
 
+@strict_keywords
 def mesh(
     restored: Restoration,
     stage: int = -1,
@@ -85,7 +90,7 @@ def mesh(
     exaggeration: float | None = None,
     window: Window | None = None,
 ) -> Axes:
-    """The mesh of a stage on the section, before that stage or after it; keywords as for ``section``.
+    """Draw the mesh of a stage on the section, before or after that stage; keywords as for ``section``.
 
     Raises
     ------
@@ -94,17 +99,17 @@ def mesh(
     """
     if when not in ("before", "after"):
         raise SettingError(f'when must be "before" or "after", but is {when!r}')
-    number, made = chosen_stage(restored, stage)
-    shown = up_to(restored, number + (when == "after"))
+    index, drawn = select_stage(restored, stage)
+    shown = first_stages(restored, index + (when == "after"))
     ax = restoration(shown, None, ax, exaggeration=exaggeration, window=window)
-    vertices = restored.original.from_rock(made.vertices if when == "after" else made.mesh.vertices)
-    ax.triplot(*vertices.T, made.mesh.triangles, color=MESH, linewidth=0.45, alpha=0.9)
-    ax.set_title(f"mesh {when} {DONE[made.kind]}", loc="left", fontsize="medium")
+    vertices = restored.original.from_rock(drawn.vertices if when == "after" else drawn.mesh.vertices)
+    ax.triplot(*vertices.T, drawn.mesh.triangles, color=MESH_COLOUR, linewidth=0.45, alpha=0.9)
+    ax.set_title(f"mesh {when} {ACTIONS[drawn.kind]}", loc="left", fontsize="medium")
     return ax
 
 
-def chosen_stage(restored: Restoration, stage: int) -> tuple[int, Stage]:
-    """A stage and its number, counted from 0."""
+def select_stage(restored: Restoration, stage: int) -> tuple[int, Stage]:
+    """Index of a stage, counted from 0, and the stage itself."""
     count = len(restored.stages)
     if not count:
         raise SettingError("nothing has been restored yet; draw this after unfault or flatten")
@@ -113,18 +118,18 @@ def chosen_stage(restored: Restoration, stage: int) -> tuple[int, Stage]:
     return stage % count, restored.stages[stage]
 
 
-def up_to(restored: Restoration, count: int) -> Restoration:
-    """The restoration after so many of its stages."""
+def first_stages(restored: Restoration, count: int) -> Restoration:
+    """The restoration after its first ``count`` stages."""
     return restored if count == len(restored.stages) else replace(restored, stages=restored.stages[:count])
 
 
-def titled(restored: Restoration) -> str:
-    """What a picture of a restoration is called."""
+def panel_title(restored: Restoration) -> str:
+    """Title of a restored section: its last stage, or the name of the section if there is none."""
     if not restored.stages:
         return restored.original.name or "section"
     report = restored.stages[-1].report
-    level = [bed.horizon for bed in report.beds if bed.flatness is not None]
-    return " ".join(["after", DONE[report.kind], *level])
+    flattened = [bed.horizon for bed in report.beds if bed.flatness is not None]
+    return " ".join(["after", ACTIONS[report.kind], *flattened])
 
 
 def amplitude_limit(section: Section, clip: float) -> float:
@@ -134,45 +139,51 @@ def amplitude_limit(section: Section, clip: float) -> float:
     return float(np.nanpercentile(np.abs(section.amplitude), clip)) or 1.0
 
 
-def draw_section(ax: Axes, restored: Restoration, limit: float, cmap: str):
-    """Draw the restored section, its colours even about 0."""
+def draw_section(ax: Axes, restored: Restoration, limit: float, cmap: str) -> None:
+    """Draw the restored section, with colours symmetrical about 0."""
     x_min, x_max, z_min, z_max = edges(restored.section)
-    colours = mpl.colormaps[cmap].with_extremes(bad=OUTSIDE)
+    colours = mpl.colormaps[cmap].with_extremes(bad=NO_DATA)
     extent = (x_min, x_max, z_max, z_min)
     ax.imshow(restored.section.amplitude, cmap=colours, vmin=-limit, vmax=limit, extent=extent)
 
 
-def draw_picks(ax: Axes, restored: Restoration, interpretation: Interpretation | None, frame: PlotFrame):
-    """Draw the picks of the original as they lie now, each with its name."""
-    lines = carried(restored, interpretation)
-    for pick, pieces in lines:
-        colour = FAULT if isinstance(pick, Fault) else HORIZON
-        for piece in pieces:
-            ax.plot(*piece.T, color=colour, linewidth=1.6, solid_capstyle="round", path_effects=HALO)
-    for pick, pieces in lines:
-        points = frame.seen(np.concatenate([np.empty((0, 2)), *pieces]))
+def draw_picks(ax: Axes, restored: Restoration, interpretation: Interpretation | None, frame: PlotFrame) -> None:
+    """Draw the original's picks after restoration, each with its name."""
+    picks = [(pick, lines, _colour(pick)) for pick, lines in restored_picks(restored, interpretation)]
+    for _, lines, colour in picks:
+        for line in lines:
+            ax.plot(*line.T, color=colour, linewidth=1.6, solid_capstyle="round", path_effects=HALO)
+    for pick, lines, colour in picks:
+        points = frame.visible(np.concatenate([np.empty((0, 2)), *lines]))
         if len(points):
-            where = _at_its_end(points, frame) if isinstance(pick, Fault) else _above_its_start(points)
-            colour = FAULT if isinstance(pick, Fault) else HORIZON
-            look = {"color": colour, "path_effects": HALO, "fontsize": 8.5, "fontweight": "bold", **AS_IT_IS}
-            ax.annotate(pick.name, textcoords="offset points", **where, **look)
+            placement = _below_or_beside(points, frame) if isinstance(pick, Fault) else _above_start(points)
+            look: dict[str, Any] = {"color": colour, "path_effects": HALO, "fontsize": 8.5, "fontweight": "bold"}
+            ax.annotate(pick.name, textcoords="offset points", **placement, **look, **PLAIN_TEXT)
 
 
-def carried(restored: Restoration, interpretation: Interpretation | None) -> list[tuple]:
-    """Each pick and its lines as they lie now, the faults last so that they are drawn on top."""
-    picks = () if interpretation is None else (*interpretation.horizons, *interpretation.faults)
-    return [(pick, restored.carried(pick) if restored.stages else _drawn(pick)) for pick in picks]
+def _colour(pick: Fault | Horizon) -> str:
+    return FAULT_COLOUR if isinstance(pick, Fault) else HORIZON_COLOUR
 
 
-def _drawn(pick):
-    """The lines of a pick, be they on the section or not: a picture is where such a mistake is seen."""
+def restored_picks(
+    restored: Restoration, interpretation: Interpretation | None
+) -> list[tuple[Fault | Horizon, list[np.ndarray]]]:
+    """Each pick and its lines after restoration, faults last so that they are drawn on top."""
+    picks: list[Fault | Horizon] = []
+    if interpretation is not None:
+        picks = [*interpretation.horizons, *interpretation.faults]
+    return [(pick, restored.carried(pick) if restored.stages else _lines_as_drawn(pick)) for pick in picks]
+
+
+def _lines_as_drawn(pick: Fault | Horizon) -> list[np.ndarray]:
+    """Lines of a pick, even if they lie outside the section: a figure is where such a mistake is seen."""
     return [pick.points] if isinstance(pick, Fault) else list(pick.pieces)
 
 
-def _at_its_end(points, frame):
-    """Where a fault's name stands: below it or above it if there is room, else beside its top, in the footwall.
+def _below_or_beside(points: np.ndarray, frame: PlotFrame) -> dict[str, Any]:
+    """Placement of a fault's name: below or above it if there is room, otherwise beside its top, in the footwall.
 
-    So names of faults that dip to each other stay apart, and away from those of horizons.
+    This keeps the names of faults that dip towards each other apart, and away from those of horizons.
     """
     x_min, x_max, z_min, z_max = frame.window
     top, bottom = points[np.argmin(points[:, 1])], points[np.argmax(points[:, 1])]
@@ -185,6 +196,6 @@ def _at_its_end(points, frame):
     return {"xy": top, "xytext": (-5 if left else 5, -2), "ha": "right" if left else "left", "va": "top"}
 
 
-def _above_its_start(points):
-    """Where a horizon's name stands."""
+def _above_start(points: np.ndarray) -> dict[str, Any]:
+    """Placement of a horizon's name: above its first point."""
     return {"xy": points[np.argmin(points[:, 0])], "xytext": (3, 4), "ha": "left", "va": "bottom"}

@@ -7,10 +7,10 @@ from ipywidgets import Layout
 
 
 class Names(anywidget.AnyWidget):
-    """Shows nothing; in the box that it is a child of, each control gets a name, that of its label or its tooltip."""
+    """A hidden child of a box: names each control in that box after its label or its tooltip."""
 
     _esm = Path(__file__).with_name("names.js").read_text("utf-8")
     _css = Path(__file__).with_name("names.css").read_text("utf-8")
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__(layout=Layout(display="none"))

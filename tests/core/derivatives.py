@@ -1,6 +1,7 @@
-"""One check for every term: its Jacobian against central finite differences."""
+"""One check for every term: its derivatives against central finite differences."""
 
 import numpy as np
+from scipy.sparse import csr_array
 
 
 def check_jacobian(term, vertices, rng, step=1e-4):
@@ -21,3 +22,17 @@ def check_jacobian(term, vertices, rng, step=1e-4):
     expected = (ahead - behind) / (2 * step)
     scale = max(1e-3, np.max(np.abs(expected), initial=0))
     np.testing.assert_allclose(jacobian @ direction.ravel(), expected, rtol=1e-5, atol=1e-6 * scale)
+
+
+def check_curvature(term, vertices, rng, step=1e-4):
+    """Compare the second derivative of half the energy along a random direction to differences of its gradient."""
+    direction = rng.standard_normal(vertices.shape)
+    jacobian = term.jacobian(vertices)
+    along = direction.ravel()
+    found = np.sum((jacobian @ along) ** 2)
+    for data, factor in term.curvature(vertices):
+        rows = csr_array((data, jacobian.indices, jacobian.indptr), shape=jacobian.shape)
+        found += np.sum(factor * (rows @ along) ** 2)
+    ahead, behind = (vertices + sign * step * direction for sign in (1, -1))
+    slopes = [along @ (term.jacobian(at).T @ term.residual(at)) for at in (ahead, behind)]
+    np.testing.assert_allclose(found, (slopes[0] - slopes[1]) / (2 * step), rtol=1e-5)

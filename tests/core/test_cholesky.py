@@ -28,8 +28,7 @@ def factored(backend, matrix):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-@pytest.mark.parametrize("size", [1, 2, 30, 200])
-@pytest.mark.parametrize("shape", [(), (1,), (3,)])
+@pytest.mark.parametrize(("size", "shape"), [(1, ()), (1, (3,)), (2, (1,)), (200, ()), (200, (3,))])
 def test_solves_a_random_system(backend, size, shape):
     rng = np.random.default_rng(size)
     matrix, right = positive_definite(rng, size), rng.standard_normal((size, *shape))

@@ -28,9 +28,8 @@ def test_vertices_at_rest_are_their_neighbours_mean(mesh):
     np.testing.assert_allclose(mean_value_matrix(mesh) @ mesh.vertices, 0, atol=1e-13 * scale)
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_so_are_all_affine_images(mesh, seed):
-    rng = np.random.default_rng(seed)
+def test_so_are_all_affine_images(mesh):
+    rng = np.random.default_rng(0)
     image = mesh.vertices @ rng.standard_normal((2, 2)) + rng.standard_normal(2)
     np.testing.assert_allclose(mean_value_matrix(mesh) @ image, 0, atol=1e-13 * np.ptp(image))
 

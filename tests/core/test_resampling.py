@@ -10,8 +10,9 @@ def fractional(rng, shape, count=2000):
 
 
 @pytest.mark.parametrize("order", [1, 3])
-@pytest.mark.parametrize("kind", [np.float32, np.float64])
-@pytest.mark.parametrize("shape", [(40, 60), (1, 9), (9, 1), (2, 2)])
+@pytest.mark.parametrize(
+    ("kind", "shape"), [(np.float32, (40, 60)), (np.float64, (1, 9)), (np.float32, (9, 1)), (np.float64, (2, 2))]
+)
 def test_samples_come_back_in_their_own_kind(order, kind, shape):
     amplitude = np.random.default_rng(12).normal(size=shape).astype(kind)
     rows, columns = np.indices(shape).astype(float)

@@ -24,7 +24,7 @@ from tests.core.problems import (
 TOLERANCE = 1e-4
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(6))
 def test_first_flip_is_where_a_dense_scan_finds_it(seed):
     mesh, rng = grid(4, 3), np.random.default_rng(seed)
     step = rng.standard_normal(mesh.vertices.shape) * rng.uniform(0.02, 2)
@@ -69,7 +69,7 @@ def test_a_quadratic_energy_takes_one_step():
     assert np.abs(gradient[unknown]).max() < 1e-6
 
 
-@pytest.mark.parametrize("distance", [-80.0, -40.0, 40.0, 80.0, 120.0])
+@pytest.mark.parametrize("distance", [-80.0, 120.0])
 def test_a_block_slides_back_along_a_straight_fault(distance):
     mesh, terms, free = faulted(PLANAR, along_planar(-distance))
     solution = gauss_newton(terms, mesh.triangles, mesh.vertices, free, TOLERANCE)
@@ -89,7 +89,7 @@ def test_a_block_turns_back_along_a_circular_fault(turn):
     np.testing.assert_allclose(solution.vertices, expected, atol=0.05)
 
 
-@pytest.mark.parametrize("angle", [0.0, 1.0, -2.5])
+@pytest.mark.parametrize("angle", [1.0, -2.5])
 def test_the_answer_turns_with_the_section(angle):
     """Slid back, then turned, or turned, then slid back: no term knows which way is up."""
     line = arc(50.0)

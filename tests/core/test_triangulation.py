@@ -108,8 +108,7 @@ def test_edges_are_about_as_long_as_the_spacing(spacing):
     assert np.median(lengths(mesh, mesh.edges)) == pytest.approx(spacing, rel=0.25)
 
 
-@pytest.mark.parametrize("count", [600, 2000, 6000, 20000])
-@pytest.mark.parametrize("lines", [[], [PLANAR, LEVEL], [arc(50.0)]])
+@pytest.mark.parametrize(("count", "lines"), [(600, []), (6000, [PLANAR, LEVEL]), (20000, [arc(50.0)])])
 def test_makes_about_as_many_vertices_as_asked_for(count, lines):
     assert len(triangulate_to(BOX, lines, count).vertices) == pytest.approx(count, rel=0.15)
 
@@ -137,6 +136,16 @@ points = st.tuples(st.integers(-20, 120), st.integers(-20, 80)).map(lambda point
 polylines = st.lists(points, min_size=2, max_size=6, unique=True).map(shapely.LineString)
 
 
+def may_be_picked(line):
+    """Whether a line neither crosses itself nor turns back by more than 170 degrees, as picks must not."""
+    arms = np.diff(shapely.get_coordinates(line), axis=0)
+    arms /= np.linalg.norm(arms, axis=1)[:, None]
+    return line.is_simple and (np.sum(arms[1:] * arms[:-1], axis=1) > -np.cos(np.radians(10))).all()
+
+
+polylines = polylines.filter(may_be_picked)
+
+
 @settings(deadline=None, max_examples=50, derandomize=True)
 @given(st.lists(polylines, min_size=1, max_size=3))
 def test_any_drawing_makes_a_mesh_that_conforms_to_it(lines):
@@ -144,7 +153,7 @@ def test_any_drawing_makes_a_mesh_that_conforms_to_it(lines):
     assert (mesh.areas > 0).all()
     assert mesh.areas.sum() == pytest.approx(BOX.area, rel=1e-6)
     for line in lines:
-        inside = shapely.union_all(shapely.intersection(line, BOX))  # stretches that were drawn twice count once
+        inside = shapely.intersection(line, BOX)
         edges = np.unique(np.sort(edges_along(mesh, line, 120.0), axis=1), axis=0)
         # what lies within a tenth of a metre becomes one, and both ends are drawn on to the border over 12 m
         assert lengths(mesh, edges).sum() == pytest.approx(inside.length, rel=1e-3, abs=25.0)

@@ -1,8 +1,29 @@
-"""How far a stage is from a synthetic section's true answer."""
+"""Restorations that several modules read, and how far a stage is from a synthetic section's true answer."""
+
+from functools import cache
 
 import numpy as np
 
+import seiswidgets as sw
 from seiswidgets.geology.solve import nearest_rigid
+
+
+def restored_in_two_stages(case, **choices):
+    picks = case.interpretation
+    unfaulted = sw.Restoration(case.section, **choices).unfault(picks.faults, picks.horizons, fixed=case.fixed)
+    return unfaulted.flatten(picks.horizons[1])
+
+
+@cache
+def restored_fold():
+    """A faulted fold on a coarse mesh, and its restoration in two stages."""
+    case = sw.synthetic.faulted_fold()
+    return case, restored_in_two_stages(case, spacing=120)
+
+
+def random_points(section, count, seed=0):
+    x_min, x_max, z_min, z_max = section.extent
+    return np.random.default_rng(seed).uniform((x_min, z_min), (x_max, z_max), (count, 2))
 
 
 def spacing_for(section, count):

@@ -41,20 +41,19 @@ def horizon(throw, mirrored=False, level=400.0, shift=(0.0, 0.0), dip=0.0):
 
 
 MIRRORED = pytest.mark.parametrize("mirrored", [False, True], ids=["dips right", "dips left"])
-THROWS = pytest.mark.parametrize("throw", [1.0, 100.0, 300.0, -1.0, -100.0, -300.0])
+NORMAL_AND_REVERSE = pytest.mark.parametrize("throw", [300.0, -100.0])
 
 
-@THROWS
+@pytest.mark.parametrize("throw", [1.0, 300.0, -100.0])
 @MIRRORED
-@pytest.mark.parametrize("upwards", [False, True], ids=["drawn down", "drawn up"])
-@pytest.mark.parametrize("points", [2, 7])
+@pytest.mark.parametrize(("upwards", "points"), [(False, 7), (True, 2)], ids=["drawn down", "drawn up"])
 def test_throw_and_heave(throw, mirrored, upwards, points):
     drawn, bed = fault(mirrored, upwards, points), horizon(throw, mirrored)
     assert sw.throw(drawn, bed) == pytest.approx(throw)
     assert sw.heave(drawn, bed) == pytest.approx(throw / np.tan(np.radians(DIP)))
 
 
-@THROWS
+@NORMAL_AND_REVERSE
 @MIRRORED
 def test_pieces_in_any_order_and_direction(throw, mirrored):
     pieces = horizon(throw, mirrored).pieces
@@ -64,8 +63,7 @@ def test_pieces_in_any_order_and_direction(throw, mirrored):
         assert sw.heave(fault(mirrored), bed) == pytest.approx(throw / np.tan(np.radians(DIP)))
 
 
-@THROWS
-@MIRRORED
+@pytest.mark.parametrize(("throw", "mirrored"), [(1.0, False), (300.0, True), (-1.0, True), (-300.0, False)])
 @pytest.mark.parametrize(
     "shift", [(-200, 250), (-50, 0), (0, 1e-9), (-1e-7, -1e-7), (1e-9, -1e-6), (60, -40), (-60, -40)]
 )
@@ -73,11 +71,22 @@ def test_ends_that_stop_short_are_extended_and_overshoots_trimmed(throw, mirrore
     assert sw.throw(fault(mirrored), horizon(throw, mirrored, shift=shift)) == pytest.approx(throw, abs=1e-5)
 
 
-@THROWS
+@NORMAL_AND_REVERSE
 @pytest.mark.parametrize("dip", [-20, 20])
 def test_dipping_beds_are_extended_along_their_dip(throw, dip):
     exact, short = (horizon(throw, shift=shift, dip=dip) for shift in ((0, 0), (-150, 150)))
     assert sw.throw(fault(), short) == pytest.approx(sw.throw(fault(), exact)) == pytest.approx(throw)
+
+
+@NORMAL_AND_REVERSE
+@MIRRORED
+def test_a_bent_piece_is_extended_along_its_last_tenth(throw, mirrored):
+    left, right = on_fault(400), on_fault(400 + throw)
+    footwall = [(0, 100), (left - 300, 400), (left - 60, 400)]
+    hanging_wall = [(right + 60, 400 + throw), (right + 400, 400 + throw), (WIDTH, 600 + throw)]
+    bed = sw.Horizon(*(seen(piece, mirrored) for piece in (footwall, hanging_wall)))
+    assert sw.throw(fault(mirrored), bed) == pytest.approx(throw)
+    assert sw.throw(fault(mirrored), sw.Horizon(*(piece[::-1] for piece in bed.pieces))) == pytest.approx(throw)
 
 
 def test_a_piece_is_extended_by_a_fifth_of_its_length_at_most():
@@ -140,7 +149,7 @@ GRABEN = {"left": [(800, 0), (1200, 1000)], "right": [(2200, 0), (1800, 1000)]}
 BEDS = [[(0, 400), (960, 400)], [(1000, 500), (2000, 500)], [(2040, 400), (3000, 400)]]
 
 
-@pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 2, 0), (2, 1, 0)])
 @pytest.mark.parametrize("middle", [(1000, 2000), (1050, 1950), (990, 2010)], ids=["exact", "short", "over"])
 def test_the_middle_of_a_graben_serves_both_faults(order, middle):
     pieces = [BEDS[0], [(x, 500) for x in middle], BEDS[2]]

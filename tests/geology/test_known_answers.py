@@ -18,30 +18,34 @@ CASES = {
 }
 
 
-@pytest.fixture(scope="module", params=CASES)
-def case(request):
-    make, keywords = CASES[request.param]
-    return make(**keywords)
+LARGE = ["graben", "listric 0.3", "domino 15 x 12"]
+SIZES = [
+    *((name, 600, "free") for name in CASES),
+    *((name, 5000, "held") for name in CASES),
+    *((name, 5000, "free") for name in ("planar", "reverse", *LARGE)),
+    *((name, 20000, "held") for name in LARGE),
+]
 
 
-@pytest.mark.parametrize("vertices", [600, 5000, 20000])
-@pytest.mark.parametrize("held", [True, False], ids=["held", "free"])
-def test_blocks_come_back(case, vertices, held):
+@pytest.mark.parametrize(("name", "vertices", "held"), SIZES)
+def test_blocks_come_back(name, vertices, held):
+    make, keywords = CASES[name]
+    case, held = make(**keywords), held == "held"
     start = sw.Restoration(case.section, spacing_for(case.section, vertices))
     picks = case.interpretation
     stage = start.unfault(picks.faults, picks.horizons, fixed=case.fixed if held else None).stages[-1]
     errors, block = block_errors(stage, case.to_unfaulted, case.block, rigid=not held)
     assert stage.report.converged
     assert stage.report.iterations <= 10
-    assert stage.report.unmet == ()
+    assert stage.report.findings == ()
     assert errors.max() <= 2e-3 * largest_throw(stage)
     if held:
         assert (errors[block == 0] == 0).all()
+        assert_held(stage, case)
 
 
-def test_a_held_block_does_not_move_at_all(case):
-    picks = case.interpretation
-    stage = sw.Restoration(case.section).unfault(picks.faults, picks.horizons, fixed=case.fixed).stages[-1]
+def assert_held(stage, case):
+    """Not one vertex of the held block has moved."""
     label = case.block(stage.mesh.vertices[stage.mesh.triangles].mean(axis=1))
     part = stage.mesh.blocks[stage.mesh.triangles[:, 0]]
     still = np.unique(stage.mesh.triangles[part == np.bincount(part[label == 0]).argmax()])
@@ -49,8 +53,7 @@ def test_a_held_block_does_not_move_at_all(case):
     np.testing.assert_array_equal(stage.vertices[still], stage.mesh.vertices[still])
 
 
-@pytest.mark.parametrize("dip", [2, 10, 25])
-@pytest.mark.parametrize("vertices", [600, 5000, 20000])
+@pytest.mark.parametrize(("dip", "vertices"), [(2, 600), (10, 5000), (25, 600)])
 def test_a_tilted_section_turns_back(dip, vertices):
     case = sw.synthetic.tilt(dip=dip)
     restored = sw.Restoration(case.section, spacing_for(case.section, vertices)).flatten(
@@ -65,15 +68,30 @@ def test_a_tilted_section_turns_back(dip, vertices):
     assert errors.max() <= 2e-3 * relief
 
 
-@pytest.mark.parametrize("dip", [10, 30, 45, 62])
-def test_a_fold_becomes_level_and_keeps_its_length(dip):
+@pytest.mark.parametrize("dip", [10, 30, 45, 60])
+@pytest.mark.parametrize("spacing", [None, 100, 40])
+def test_a_fold_becomes_level_and_keeps_its_length(dip, spacing):
     case = sw.synthetic.sine_fold(dip=dip)
-    stage = sw.Restoration(case.section).flatten(case.interpretation.horizons[1]).stages[-1]
-    (bed,) = stage.report.beds
-    assert stage.report.converged
-    assert stage.report.flipped == 0
-    assert bed.flatness < 0.1 * case.section.dz
-    assert abs(bed.length_change) < {10: 0.003, 30: 0.02, 45: 0.06, 62: 0.15}[dip]
+    bed = case.interpretation.horizons[1]
+    restored = sw.Restoration(case.section, spacing=spacing).flatten(bed)
+    (line,) = restored.carried(bed)
+    report = restored.stages[-1].report
+    before, after = (np.hypot(*np.diff(points, axis=0).T).sum() for points in (bed.pieces[0], line))
+    assert report.converged
+    assert report.iterations <= (15 if dip <= 45 else 40)
+    assert report.flipped == 0
+    assert report.findings == ()
+    assert np.ptp(line[:, 1]) / 2 < 0.15 * case.section.dz  # it is drawn within a tenth of a sample of the mesh
+    assert abs(after / before - 1) < (0.002 if dip <= 45 else 0.005)
+
+
+@pytest.mark.parametrize(("dip", "wavelength"), [(65, 2000), (60, 1500), (55, 1200)])
+def test_steep_folds_settle(dip, wavelength):
+    """Steps go to and fro for ever there where a solver does not know how the area barrier bends."""
+    case = sw.synthetic.sine_fold(dip=dip, wavelength=wavelength)
+    report = sw.Restoration(case.section).flatten(case.interpretation.horizons[1]).stages[-1].report
+    assert report.converged
+    assert report.iterations <= 60
 
 
 def test_a_heavier_length_weight_keeps_the_bed_better():

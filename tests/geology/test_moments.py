@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from tests.geology.test_restoration import random_points, restored_in_two_stages
+from tests.geology.answers import random_points, restored_fold
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def fold():
-    return restored_in_two_stages(sw.synthetic.faulted_fold(), spacing=120)
+    return restored_fold()[1]
 
 
 @pytest.fixture(scope="module")

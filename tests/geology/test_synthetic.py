@@ -11,23 +11,15 @@ CASES = {
     "planar": (synthetic.planar_fault, {}),
     "planar, vertical": (synthetic.planar_fault, {"dip": 90}),
     "planar, reverse": (synthetic.planar_fault, {"throw": -100}),
-    "listric 0.05": (synthetic.listric_fault, {"turn": 0.05}),
-    "listric 0.15": (synthetic.listric_fault, {"turn": 0.15}),
     "listric 0.3": (synthetic.listric_fault, {"turn": 0.3}),
     "graben": (synthetic.graben, {}),
     "domino 1": (synthetic.domino, {"faults": 1, "turn": 12}),
-    "domino 5": (synthetic.domino, {}),
     "domino 5, steep": (synthetic.domino, {"turn": 12, "dip": 75}),
     "domino 15": (synthetic.domino, {"faults": 15, "turn": 12}),
-    "tilt": (synthetic.tilt, {}),
     "tilt to the left": (synthetic.tilt, {"dip": -30}),
-    "fold 10": (synthetic.sine_fold, {"dip": 10}),
-    "fold 45": (synthetic.sine_fold, {"dip": 45}),
     "fold 62": (synthetic.sine_fold, {"dip": 62}),
-    "blind": (synthetic.blind_fault, {}),
     "blind, large slip": (synthetic.blind_fault, {"slip": 200, "length": 900}),
     "blind, to the left": (synthetic.blind_fault, {"dip": 120}),
-    "faulted fold": (synthetic.faulted_fold, {}),
     "faulted fold, one horizon": (synthetic.faulted_fold, {"horizons": (900.0,), "throw": 250}),
 }
 RIGID = [name for name in CASES if not name.startswith("blind")]  # the rock around a blind fault bends
@@ -167,13 +159,13 @@ def test_a_case_without_a_fault_is_unfaulted_already():
     np.testing.assert_array_equal(answer.to_unfaulted(points), points)
 
 
-@pytest.mark.parametrize("throw", [50, 150, 300])
+@pytest.mark.parametrize("throw", [50, 300])
 def test_planar_fault_has_its_throw(throw):
     (footwall, hanging_wall), *_ = (h.pieces for h in synthetic.planar_fault(throw=throw).interpretation.horizons)
     assert hanging_wall[0, 1] - footwall[-1, 1] == pytest.approx(throw)
 
 
-@pytest.mark.parametrize("turn", [0.05, 0.15, 0.3])
+@pytest.mark.parametrize("turn", [0.05, 0.3])
 def test_listric_hanging_wall_turns_by_the_angle(turn):
     piece = synthetic.listric_fault(turn=turn).interpretation.horizons[0].pieces[1]
     along = piece[-1] - piece[0]
@@ -188,7 +180,7 @@ def test_graben_opens_sideways_by_twice_the_heave():
     assert (left[:, 0] < right[:, 0]).all()
 
 
-@pytest.mark.parametrize("faults", [1, 5, 15])
+@pytest.mark.parametrize("faults", [1, 15])
 def test_domino_blocks_keep_their_centres_depth(faults):
     answer = synthetic.domino(faults=faults, turn=12)
     middle = np.array([fault.points.mean(axis=0) for fault in answer.interpretation.faults])
@@ -210,7 +202,7 @@ def test_domino_faults_cross_the_section(faults):
     assert answer.section.extent[1] >= 2000
 
 
-@pytest.mark.parametrize("dip", [10, 30, 45, 62])
+@pytest.mark.parametrize("dip", [10, 62])
 def test_sine_fold_dips_as_asked(dip):
     answer = synthetic.sine_fold(dip=dip)
     x = np.linspace(0, 4000, 20001)
@@ -220,7 +212,7 @@ def test_sine_fold_dips_as_asked(dip):
         np.testing.assert_array_equal(horizon.pieces[0][[0, -1], 0], [0, 4000])
 
 
-@pytest.mark.parametrize("slip", [20, 60, 150])
+@pytest.mark.parametrize("slip", [20, 150])
 def test_blind_slip_is_elliptic_and_vanishes_at_the_tips(slip):
     answer = synthetic.blind_fault(slip=slip, dip=60, length=900)
     down, across = np.array([0.5, np.sqrt(0.75)]), np.array([np.sqrt(0.75), -0.5])
@@ -236,7 +228,7 @@ def test_blind_slip_is_elliptic_and_vanishes_at_the_tips(slip):
     np.testing.assert_allclose(answer.to_restored(ahead), ahead, atol=1e-6)
 
 
-@pytest.mark.parametrize("slip", [20, 60, 200])
+@pytest.mark.parametrize("slip", [20, 200])
 def test_blind_restoration_inverts_the_slip(slip):
     """Forward through the crack's displacement in its textbook form, then back."""
     answer = synthetic.blind_fault(slip=slip, dip=60, length=900)

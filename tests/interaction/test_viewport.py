@@ -24,12 +24,28 @@ def view(request):
     return Viewport(SECTIONS[request.param], 900, 600)
 
 
-@pytest.mark.parametrize("ratio", [1, 1.5, 2])
-@pytest.mark.parametrize("size", [(900, 600), (333.3, 1217.7), (1919, 80)])
-@pytest.mark.parametrize("zoom", [0.1, 0.7, 1, 3, 20, 1e9])
-@pytest.mark.parametrize("exaggeration", [None, 1, 7.3])
-def test_pixels_there_and_back(view, ratio, size, zoom, exaggeration):
-    view = view.resized(*size, ratio).zoomed(zoom, at=(0.3 * size[0], 0.8 * size[1]))
+COMMON, TALL, FLAT = (900, 600), (333.3, 1217.7), (1919, 80)
+
+
+@pytest.mark.parametrize(
+    ("section", "size", "ratio", "zoom", "exaggeration"),  # each zoom twice; of the others each pair of values
+    [
+        ("depth", COMMON, 1, 0.1, None),
+        ("depth", TALL, 1.5, 3, 1),
+        ("depth", FLAT, 2, 1e9, 7.3),
+        ("depth", TALL, 2, 20, None),
+        ("time", COMMON, 1.5, 20, 7.3),
+        ("time", TALL, 2, 0.7, None),
+        ("time", FLAT, 1, 1, 1),
+        ("time", COMMON, 1, 3, 7.3),
+        ("tiny", COMMON, 2, 1, 1),
+        ("tiny", TALL, 1, 1e9, 7.3),
+        ("tiny", FLAT, 1.5, 0.7, None),
+        ("tiny", FLAT, 2, 0.1, 1),
+    ],
+)
+def test_pixels_there_and_back(section, size, ratio, zoom, exaggeration):
+    view = Viewport(SECTIONS[section]).resized(*size, ratio).zoomed(zoom, at=(0.3 * size[0], 0.8 * size[1]))
     view = view if exaggeration is None else view.exaggerated(exaggeration)
     pixels = np.array(list(itertools.product(np.linspace(0, size[0], 23), np.linspace(0, size[1], 17))))
     assert abs(view.to_pixels(view.to_section(pixels)) - pixels).max() < 1e-3
@@ -40,9 +56,8 @@ def test_pixels_there_and_back(view, ratio, size, zoom, exaggeration):
     assert (abs(view.to_pixels(view.from_backing(whole)) - pixels) * view.backing / view.size).max() <= 0.501
 
 
-@pytest.mark.parametrize("ratio", [1, 1.5, 2])
-def test_corners(view, ratio):
-    view = view.resized(901, 603, ratio)
+def test_corners(view):
+    view = view.resized(901, 603, ratio := 1.5)
     x_min, x_max, z_min, z_max = view.window
     assert view.to_pixels([(x_min, z_min), (x_max, z_max)]) == near(np.array([[0, 0], [901, 603]]))
     assert view.to_backing([x_max, z_max]) == near(view.backing)
@@ -58,16 +73,16 @@ def test_a_fitted_view_holds_every_cell(view):
     assert view.zoomed(2).panned(30, 40).fitted() == view
 
 
-@pytest.mark.parametrize("factor", [0.01, 0.5, 0.9, 1.2, 3, 1e6])
-@pytest.mark.parametrize("pixel", [(0, 0), (450, 300), (880, 20), (123.4, 567.8)])
+@pytest.mark.parametrize(
+    ("factor", "pixel"), [(0.01, (450, 300)), (0.9, (880, 20)), (3, (123.4, 567.8)), (1e6, (0, 0))]
+)
 def test_zoom_keeps_the_point_under_the_pointer(view, factor, pixel):
     zoomed = view.zoomed(2, at=(100, 100)).zoomed(factor, at=pixel)
     assert zoomed.to_section(pixel) == near(view.zoomed(2, at=(100, 100)).to_section(pixel))
     assert zoomed.exaggeration == pytest.approx(view.exaggeration)
 
 
-@pytest.mark.parametrize("factor", [1.1, 2, 10])
-@pytest.mark.parametrize("pixel", [None, (0, 600), (123, 456)])
+@pytest.mark.parametrize(("factor", "pixel"), [(1.1, (0, 600)), (2, None), (10, (123, 456))])
 def test_zoom_in_and_out_is_the_identity(factor, pixel):
     view = Viewport(DEPTH).zoomed(1.3, at=(500, 100))
     assert view.zoomed(factor, at=pixel).zoomed(1 / factor, at=pixel).window == near(view.window)
@@ -84,9 +99,8 @@ def test_zoom_has_limits(view):
     assert np.diff(farthest.window)[[0, 2]] == near(FARTHEST * np.diff(view.window)[[0, 2]])
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_the_section_is_never_lost_from_sight(seed):
-    rng = np.random.default_rng(seed)
+def test_the_section_is_never_lost_from_sight():
+    rng = np.random.default_rng(0)
     view = Viewport(DEPTH)
     for _ in range(300):
         if rng.random() < 0.5:
@@ -116,7 +130,7 @@ def test_pan_keeps_the_middle_on_the_section(view):
         assert z_min - 1e-6 <= z <= z_max + 1e-6
 
 
-@pytest.mark.parametrize("value", [0.5, 1, 2, 10])
+@pytest.mark.parametrize("value", [0.5, 10])
 def test_exaggeration(view, value):
     view = view.zoomed(1.5).exaggerated(value)
     assert view.exaggeration == pytest.approx(value)
@@ -170,8 +184,7 @@ def test_resizing(view):
     assert other.resized(900, 600, 1).window == near(closer.window)
 
 
-@pytest.mark.parametrize("zoom", [0.5, 1, 2.3, 17, 1e6])
-@pytest.mark.parametrize("size", [(900, 600), (1900, 300), (120, 90), (20, 10)])
+@pytest.mark.parametrize(("size", "zoom"), [((900, 600), 2.3), ((1900, 300), 0.5), ((120, 90), 1e6), ((20, 10), 17)])
 def test_ticks_are_round_and_lie_in_the_window(view, zoom, size):
     view = view.resized(*size).zoomed(zoom, at=(0.7 * size[0], 0.2 * size[1]))
     x_min, x_max, z_min, z_max = view.window

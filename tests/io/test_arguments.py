@@ -13,23 +13,25 @@ FAULT = sw.Fault([(0, 0), (1, 1)], "F1")
 SOURCE = sw.SectionSource("synthetic", "tilt")
 
 
-@pytest.mark.parametrize("path", [None, 5, b"line.sgy", "", ["line.sgy"], SECTION])
+NO_PATHS = [None, 5, b"line.sgy", "", ["line.sgy"], SECTION]
+
+
 @pytest.mark.parametrize(
-    "act",
+    ("act", "path"),
     [
-        sw.open_section,
-        sw.preview,
-        sw.open_session,
-        sw.Session.of(SECTION, SOURCE, NONE_DRAWN).save,
-        lambda path: sw.read_picks(path, SECTION),
-        lambda path: sw.write_picks(NONE_DRAWN, path, SECTION),
-        lambda path: sw.save_section(SECTION, path),
-        lambda path: sw.SectionSource("file", path),
-        sw.Autosave,
+        *((sw.open_section, path) for path in NO_PATHS),
+        (sw.preview, None),
+        (sw.open_session, ""),
+        (sw.Session.of(SECTION, SOURCE, NONE_DRAWN).save, 5),
+        (lambda path: sw.read_picks(path, SECTION), ["line.sgy"]),
+        (lambda path: sw.write_picks(NONE_DRAWN, path, SECTION), b"line.sgy"),
+        (lambda path: sw.save_section(SECTION, path), SECTION),
+        (lambda path: sw.SectionSource("file", path), ""),
+        (sw.Autosave, None),
     ],
 )
 def test_what_is_no_path_is_told(act, path):
-    with pytest.raises(sw.DataError, match="a path must be a text or a Path that names a file, but is "):
+    with pytest.raises(sw.DataError, match="a path must be a string or a Path that names a file, but is "):
         act(path)
 
 
@@ -37,7 +39,7 @@ def test_what_is_no_path_is_told(act, path):
     ("act", "message"),
     [
         (lambda path: sw.read_picks(path / "a.csv", np.ones((2, 3))), "section must be a Section, but is a ndarray"),
-        (lambda path: sw.read_picks(path / "a.csv", SECTION, z_up="no"), "z_up must be True or False, but is 'no'"),
+        (lambda path: sw.read_picks(path / "a.csv", SECTION, z_up="no"), "z_up= must be True or False, but is 'no'"),
         (lambda path: sw.write_picks([FAULT], path / "a.csv", SECTION), "must be an Interpretation, but is a list"),
         (lambda path: sw.write_picks(NONE_DRAWN, path / "a.csv", None), "section must be a Section"),
         (lambda path: sw.save_mesh(SECTION, path / "a.vtu"), "restored must be a Restoration, but is a Section"),
@@ -46,7 +48,7 @@ def test_what_is_no_path_is_told(act, path):
         (lambda path: sw.save_section(SECTION, path / "a.sgy", x0="left"), "x0 must be a finite number"),
         (
             lambda path: sw.save_section(SECTION, path / "a.sgy", inline=3),
-            "inline= is of the line that like= holds; give that file",
+            "inline= selects a line of the file like=; give that file",
         ),
         (lambda path: sw.displacement(SECTION), "restored must be a Restoration"),
         (lambda path: sw.to_xarray(restored()), "section must be a Section, but is a Restoration"),

@@ -11,7 +11,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError
-from seiswidgets.io.session.autosave import found, numbered, set_aside
+from seiswidgets.io.session.autosave import find_versions, numbered_files, set_aside
 from seiswidgets.io.session.saved_picks import SavedPick
 
 ROOT = Path(__file__).parents[2]
@@ -65,22 +65,22 @@ def test_an_edit_is_saved_within_a_second(path):
         waits = []
         for number in range(1, 4):  # the quickest of three: what else this machine does is not ours
             autosave.save(session(number))
-            waits.append(wait_for(lambda number=number: number in numbered(path)))
+            waits.append(wait_for(lambda number=number: number in numbered_files(path)))
             wait_for(lambda: autosave.pending is None)
-            assert found(path)[0].session == session(number)
+            assert find_versions(path)[0].session == session(number)
     assert min(waits) < 1
 
 
 def test_edits_close_together_are_saved_once_and_none_waits_for_the_last(path):
     with sw.Autosave(path, behind=0.3) as autosave:
         begun, number = time.monotonic(), 0
-        while not (versions := found(path)):  # edits go on and on, and yet they are saved
+        while not (versions := find_versions(path)):  # edits go on and on, and yet they are saved
             assert time.monotonic() - begun < 20
             number += 1
             autosave.save(session(number))
     assert versions[-1].path.name == "line.000001.json"
     assert 10 < versions[-1].session.faults[0].pieces[0][0][0] <= number
-    assert found(path)[0].session == session(number)
+    assert find_versions(path)[0].session == session(number)
 
 
 def test_the_last_ten_versions_stay_the_newest_first(path):
@@ -88,13 +88,13 @@ def test_the_last_ten_versions_stay_the_newest_first(path):
         for number in range(14):
             autosave.save(session(number))
             wait_for(lambda: autosave.pending is None)
-    versions = found(path)
+    versions = find_versions(path)
     assert [version.session for version in versions] == [session(number) for number in range(13, 3, -1)]
     assert [version.path.name for version in versions[:2]] == ["line.000014.json", "line.000013.json"]
     assert len(list(path.parent.iterdir())) == 10
     with sw.Autosave(path, keep=3, **QUICK) as autosave:
         autosave.save(session(99))
-    assert [version.path.name for version in found(path)] == [
+    assert [version.path.name for version in find_versions(path)] == [
         "line.000015.json",
         "line.000014.json",
         "line.000013.json",
@@ -112,7 +112,7 @@ def test_nothing_is_saved_twice(path, disk):
 def test_closing_saves_what_waits(path):
     with sw.Autosave(path, behind=60.0) as autosave:
         autosave.save(session(5))
-    assert found(path)[0].session == session(5)
+    assert find_versions(path)[0].session == session(5)
     with pytest.raises(DataError, match="is closed and saves no more"):
         autosave.save(session(6))
     autosave.close()
@@ -127,10 +127,10 @@ def test_a_full_or_read_only_disk_is_told_once_and_tried_until_it_works(path, di
         wait_for(lambda: disk.tries > 5)
         assert autosave.pending == session(1)
         autosave.save(session(2))
-        assert not found(path)
+        assert not find_versions(path)
         disk.reason = None
         wait_for(lambda: autosave.pending is None)  # the try under way may still be that of the first
-        assert found(path)[0].session == session(2)
+        assert find_versions(path)[0].session == session(2)
     failure, mended = told
     assert isinstance(failure, DataError)
     assert reason[1] in str(failure)
@@ -152,7 +152,7 @@ def test_a_folder_that_goes_and_comes_back(path):
         aside.rename(folder)
         wait_for(lambda: autosave.pending is None)
     assert "cannot be written: Not a directory" in str(told[0])
-    assert [version.session for version in found(folder / "line.json")] == [session(2), session(1)]
+    assert [version.session for version in find_versions(folder / "line.json")] == [session(2), session(1)]
 
 
 def test_closing_while_the_disk_is_full_tells_and_keeps(path, disk):
@@ -170,7 +170,7 @@ def test_an_error_in_what_is_reported_to_does_not_end_the_saving(path, disk, cap
         autosave.save(session(1))
         wait_for(lambda: disk.tries > 2)
         disk.reason = None
-    assert found(path)[0].session == session(1)
+    assert find_versions(path)[0].session == session(1)
     assert "ZeroDivisionError" in caplog.text
 
 
@@ -186,15 +186,15 @@ def test_what_is_set_aside_stays(path):
             wait_for(lambda: autosave.pending is None)
     assert copy.name == "line.before-000002.json"
     assert sw.open_session(copy) == session(1)
-    assert [version.session for version in found(path)] == [session(4), session(3)]
+    assert [version.session for version in find_versions(path)] == [session(4), session(3)]
 
 
 def test_a_session_saved_under_the_path_itself_is_found_last(path):
     session(1).save(path)
-    assert [version.path for version in found(path)] == [path]
+    assert [version.path for version in find_versions(path)] == [path]
     with sw.Autosave(path, **QUICK) as autosave:
         autosave.save(session(2))
-    assert [version.session for version in found(path)] == [session(2), session(1)]
+    assert [version.session for version in find_versions(path)] == [session(2), session(1)]
 
 
 def test_the_path_may_begin_with_the_home_folder(path, monkeypatch):
@@ -203,7 +203,7 @@ def test_the_path_may_begin_with_the_home_folder(path, monkeypatch):
     for number in (1, 2):
         with sw.Autosave("~/line.json", **QUICK) as autosave:
             autosave.save(session(number))
-    assert [version.session for version in found("~/line.json")] == [session(2), session(1)]
+    assert [version.session for version in find_versions("~/line.json")] == [session(2), session(1)]
     assert set_aside("~/line.json") == path.with_name("line.before-000002.json")
 
 
@@ -212,12 +212,12 @@ def test_damaged_versions_are_left_out(path):
         for number in range(3):
             autosave.save(session(number))
             wait_for(lambda: autosave.pending is None)
-    newest, middle, _ = found(path)
+    newest, middle, _ = find_versions(path)
     newest.path.write_bytes(newest.path.read_bytes()[:-30])
     (path.parent / "line.000009.json").mkdir()
     (path.parent / "other.000009.json").write_text("{}")
-    assert [version.path for version in found(path)] == [middle.path, path.with_name("line.000001.json")]
-    assert found(path.parent / "nowhere" / "line.json") == []
+    assert [version.path for version in find_versions(path)] == [middle.path, path.with_name("line.000001.json")]
+    assert find_versions(path.parent / "nowhere" / "line.json") == []
 
 
 KILLED = """
@@ -234,11 +234,11 @@ for number in itertools.count():
 def test_a_process_that_is_killed_leaves_only_complete_versions(path):
     process = subprocess.Popen([sys.executable, "-c", KILLED, str(path)], cwd=ROOT)
     try:
-        wait_for(lambda: max(numbered(path), default=0) > 12, seconds=60)
+        wait_for(lambda: max(numbered_files(path), default=0) > 12, seconds=60)
     finally:
         process.kill()
         process.wait()
-    versions = found(path)
+    versions = find_versions(path)
     assert 9 <= len(versions) <= 11  # killed between a new version and the deletion of an old one
     assert len(versions) == len(list(path.parent.glob("line.*.json")))
     for unfinished in path.parent.glob(".*.part"):  # what the killed process was at
@@ -252,4 +252,4 @@ def test_what_waits_is_saved_when_the_process_ends(path):
         "autosave.save(sw.Session(sw.SectionSource('dataset', 'f3'), None))\n"
     )
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
-    assert found(path)[0].session == SESSION
+    assert find_versions(path)[0].session == SESSION

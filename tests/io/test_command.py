@@ -1,5 +1,7 @@
+import dataclasses
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +11,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets import __main__ as command
+from seiswidgets.errors import Keyword, Text
 from seiswidgets.io.session import replay
 from seiswidgets.io.session.replay import output_names
 
@@ -89,15 +92,15 @@ def test_errors_are_words_and_the_other_sessions_go_on(saved, tmp_path):
 
 
 def test_a_fault_of_ours_does_not_keep_the_others_from_theirs(saved, tmp_path, capsys, monkeypatch):
-    def replayed(path, *arguments, **choices):
+    def replay_session(path, *arguments, **choices):
         if path.stem == "bad":
             raise ZeroDivisionError("by zero")
-        return replay.replayed(path, *arguments, **choices)
+        return replay.replay_session(path, *arguments, **choices)
 
-    monkeypatch.setattr(command, "replayed", replayed)
+    monkeypatch.setattr(command, "replay_session", replay_session)
     assert command.main(["restore", "bad.json", str(saved), "--out", str(tmp_path / "out")]) == 1
     told = capsys.readouterr().err
-    assert told.startswith("bad.json: ZeroDivisionError('by zero'), which is a fault of seiswidgets; please report it")
+    assert told.startswith("bad.json: ZeroDivisionError('by zero'), which is a bug in seiswidgets; please report it")
     assert told.endswith(f"{saved}: 2 steps, in {tmp_path / 'out' / 'session-report.txt'}\n")
 
 
@@ -108,7 +111,7 @@ def test_results_do_not_replace_the_section_that_they_are_made_from(tmp_path, ca
     sw.Session.of(case.section, source, case.interpretation, None, PLAN).save(tmp_path / "line.json")
     before = (tmp_path / "line-restored.npz").read_bytes()
     assert command.main(["restore", str(tmp_path / "line.json"), "--out", str(tmp_path)]) == 1
-    assert "line-restored.npz is the section that the session is of; choose another folder" in capsys.readouterr().err
+    assert "line-restored.npz is the section of the session; choose another folder" in capsys.readouterr().err
     assert (tmp_path / "line-restored.npz").read_bytes() == before
 
 
@@ -129,6 +132,35 @@ def test_lines_left_out_are_told(saved, tmp_path, capsys):
     assert "left out: fault 'F2' crosses itself" in (tmp_path / "out" / "session-report.txt").read_text()
 
 
+def test_findings_of_the_stages_are_shown_worst_first(saved, tmp_path, capsys, monkeypatch):
+    def replay_session(*arguments, **options):
+        done = replay.replay_session(*arguments, **options)
+        for stage in done.restored.stages:
+            warning = sw.Finding("warning", "contact", f"{stage.kind} gave way", pick="F1")
+            monkeypatch.setitem(vars(stage), "report", dataclasses.replace(stage.report, findings=(warning,)))
+        problem = sw.Finding("problem", "cut-off", Text("allow it with ", Keyword("allow_changed", True)))
+        last = done.restored.stages[-1]
+        findings = (*last.report.findings, problem)
+        monkeypatch.setitem(vars(last), "report", dataclasses.replace(last.report, findings=findings))
+        return done
+
+    monkeypatch.setattr(command, "replay_session", replay_session)
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "out")]) == 0
+    assert capsys.readouterr().err.splitlines()[1:] == [
+        f"{saved}: problem: allow it with --allow-changed",
+        f"{saved}: warning: unfault gave way",
+        f"{saved}: warning: flatten gave way",
+    ]
+
+
+def test_a_problem_that_a_plan_leaves_is_shown(saved, tmp_path, capsys):
+    document = json.loads(saved.read_text())
+    document["plan"]["weights"]["flatten"] = 0.001  # too weak to bring the horizon to its datum
+    saved.write_text(json.dumps(document))
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "out")]) == 0
+    assert re.search(rf"^{re.escape(str(saved))}: problem: horizon H1 .* datum", capsys.readouterr().err, re.MULTILINE)
+
+
 def test_a_section_outside_or_changed_must_be_allowed(saved, tmp_path, capsys):
     document = json.loads(saved.read_text())
     sw.save_section(sw.synthetic.faulted_fold(seed=1).section, tmp_path / "line.npz")
@@ -139,7 +171,7 @@ def test_a_section_outside_or_changed_must_be_allowed(saved, tmp_path, capsys):
         ([], 1, "lies outside the session's folder"),
         ([], 1, "or open the session with --allow-outside if you trust it"),
         (["--allow-outside"], 1, "is not the one that the session was made on"),
-        (["--allow-outside"], 1, "find the old one, or allow it by --allow-changed"),
+        (["--allow-outside"], 1, "find the original one, or allow it with --allow-changed"),
         (["--allow-outside", "--allow-changed"], 0, "2 steps"),
     ]:
         assert command.main([*call, *allowed]) == status
@@ -149,7 +181,7 @@ def test_a_section_outside_or_changed_must_be_allowed(saved, tmp_path, capsys):
 def test_a_folder_that_cannot_be_made_is_told(saved, tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert command.main(["restore", str(saved), "--out", str(tmp_path / "file" / "out")]) == 1
-    assert "cannot be made: Not a directory; choose another folder" in capsys.readouterr().err
+    assert "cannot be created: Not a directory; choose another folder" in capsys.readouterr().err
 
 
 def test_sessions_of_the_same_name_keep_apart():
@@ -172,18 +204,24 @@ def test_the_bar_fills_where_somebody_watches(saved, tmp_path, capsys, monkeypat
 def test_the_bar_fits_a_narrow_terminal(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    bar = command.Bar("a folder/" * 20 + "session.json")
+    bar = command.ProgressBar("a folder/" * 20 + "session.json")
     bar.show(1, 2, 3)
     told = capsys.readouterr().err
     assert len(told) < 80
     assert "session.json [" in told
 
 
-def test_version_help_and_wrong_calls():
+def test_version_help_and_wrong_calls(capsys):
     assert run("--version").stdout == f"seiswidgets {sw.__version__}\n"
-    result = run("restore", "--help")
-    assert (result.returncode, result.stderr) == (0, "")
+
+    def stopped(*arguments):
+        with pytest.raises(SystemExit, match=r"^[02]$") as stop:
+            command.main(arguments)
+        return stop.value.code, *capsys.readouterr()
+
+    status, told, complaint = stopped("restore", "--help")
+    assert (status, complaint) == (0, "")
     for word in ("session.json", "--out DIR", "--allow-outside", "-restored.npz", "Exit status"):
-        assert word in result.stdout
-    assert run().returncode == 2
-    assert "--out" in run("restore", "x.json").stderr
+        assert word in told
+    assert stopped()[0] == 2
+    assert "--out" in stopped("restore", "x.json")[2]

@@ -9,7 +9,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError
-from seiswidgets.io.datasets import F3, FOLDER_VARIABLE, TEAPOT, Source, located, read_ascii_inline, read_raw_traces
+from seiswidgets.io.datasets import F3, FOLDER_VARIABLE, TEAPOT, Source, find_file, read_ascii_inline, read_raw_traces
 
 CONTENT = b"some traces"
 SHA256 = hashlib.sha256(CONTENT).hexdigest()
@@ -18,7 +18,7 @@ SHA256 = hashlib.sha256(CONTENT).hexdigest()
 def real(source):
     """Path of a real file; skips the test where there is none, but not in CI."""
     try:
-        return located(source)
+        return find_file(source)
     except DataError:
         if os.environ.get(FOLDER_VARIABLE) or os.environ.get("CI") == "true":
             raise
@@ -103,7 +103,7 @@ def test_sources_are_fixed_to_a_commit(source, name):
 def test_a_file_in_the_users_folder_is_used_where_it_lies(tmp_path, monkeypatch, unreachable):
     monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
     (tmp_path / "traces.dat").write_bytes(CONTENT)
-    assert located(unreachable, cache=tmp_path / "cache") == tmp_path / "traces.dat"
+    assert find_file(unreachable, cache=tmp_path / "cache") == tmp_path / "traces.dat"
     assert not (tmp_path / "cache").exists()
 
 
@@ -111,7 +111,7 @@ def test_a_file_in_the_users_folder_with_another_hash_is_named(tmp_path, monkeyp
     monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
     (tmp_path / "traces.dat").write_bytes(CONTENT[:-1])
     with pytest.raises(DataError, match=rf"{tmp_path}/traces.dat is damaged or another version.*{SHA256}"):
-        located(published, cache=tmp_path / "cache")
+        find_file(published, cache=tmp_path / "cache")
 
 
 @pytest.mark.parametrize("make", [sw.datasets.f3, sw.datasets.teapot])
@@ -125,42 +125,47 @@ def test_a_folder_that_is_not_there_is_named(tmp_path, monkeypatch, make):
 def test_what_the_users_folder_lacks_is_downloaded_once(tmp_path, monkeypatch, published, folder):
     if folder is not None:
         monkeypatch.setenv(FOLDER_VARIABLE, folder and str(tmp_path))
-    path = located(published, cache=tmp_path / "cache")
+    path = find_file(published, cache=tmp_path / "cache")
     assert path.parent == tmp_path / "cache"
     assert path.read_bytes() == CONTENT
     (tmp_path / "published/owner/repository/0123/data/traces.dat").unlink()
-    assert located(published, cache=tmp_path / "cache") == path
+    assert find_file(published, cache=tmp_path / "cache") == path
 
 
 def test_a_damaged_file_in_the_cache_is_downloaded_again(tmp_path, published):
     (tmp_path / "traces.dat").write_bytes(b"half")
-    assert located(published, cache=tmp_path).read_bytes() == CONTENT
+    assert find_file(published, cache=tmp_path).read_bytes() == CONTENT
 
 
 def test_a_download_of_something_else_is_refused(tmp_path, published):
     (tmp_path / "published/owner/repository/0123/data/traces.dat").write_bytes(b"please sign in")
     with pytest.raises(DataError, match=r"traces.dat .* could not be downloaded.*hash"):
-        located(published, cache=tmp_path / "cache")
+        find_file(published, cache=tmp_path / "cache")
     assert not list((tmp_path / "cache").glob("*"))
 
 
 def test_a_file_that_is_no_longer_published_is_an_error(tmp_path, published):
     (tmp_path / "published/owner/repository/0123/data/traces.dat").unlink()
     with pytest.raises(DataError, match=r"could not be downloaded.*404"):
-        located(published, cache=tmp_path / "cache")
+        find_file(published, cache=tmp_path / "cache")
 
 
 def test_without_a_network_the_error_says_where_to_put_the_file(tmp_path, unreachable):
-    with pytest.raises(DataError, match="Fetch it by hand") as caught:
-        located(unreachable, cache=tmp_path / "cache")
-    for part in ("traces.dat", unreachable.url, f"put it into {tmp_path}/cache", f"a folder that {FOLDER_VARIABLE}"):
+    with pytest.raises(DataError, match="Download it from") as caught:
+        find_file(unreachable, cache=tmp_path / "cache")
+    for part in (
+        "traces.dat",
+        unreachable.url,
+        f"put it into {tmp_path}/cache",
+        f"set {FOLDER_VARIABLE} to that folder",
+    ):
         assert part in str(caught.value)
 
 
 def test_a_cache_that_cannot_be_written_is_an_error(tmp_path, published):
     (tmp_path / "cache").write_text("a file where the folder should be")
     with pytest.raises(DataError, match="could not be downloaded"):
-        located(published, cache=tmp_path / "cache")
+        find_file(published, cache=tmp_path / "cache")
 
 
 TEXT = "7 3 0.5 -1 2\n7 2 3 4 5\n"
@@ -175,9 +180,9 @@ def test_text_traces_are_put_in_order_of_their_crosslines(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (TEXT[: TEXT.index("\n") + 1], "must hold 2 lines of 5 numbers .* but holds 1 of 5"),
-        (TEXT[:-4], "not a text of 2 traces of equal length"),
-        (TEXT.replace("4", "four"), "not a text of 2 traces"),
+        (TEXT[: TEXT.index("\n") + 1], "must hold 2 lines of 5 numbers .* but holds 1 lines of 5"),
+        (TEXT[:-4], "not a text file of 2 traces of equal length"),
+        (TEXT.replace("4", "four"), "not a text file of 2 traces"),
         (TEXT.replace("7 2", "7 1"), "lacks a crossline"),
         (TEXT.replace("7 2", "7 3"), "holds one twice"),
     ],

@@ -24,8 +24,10 @@ def text(path, content, encoding="utf-8"):
     return path
 
 
-@pytest.mark.parametrize("dtype", ["<f8", ">f8", "f4", "f2", "i2", ">i4", "u1", "?"])
-@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize(
+    ("dtype", "order"),
+    [("<f8", "C"), (">f8", "F"), ("f4", "F"), ("f2", "C"), ("i2", "C"), (">i4", "F"), ("u1", "F"), ("?", "C")],
+)
 def test_arrays_of_any_real_kind(tmp_path, dtype, order):
     array = np.asarray(np.arange(12).reshape(3, 4) % 7, dtype, order=order)
     section = sw.open_section(npy(tmp_path / "line.npy", array), **AXES)
@@ -108,14 +110,14 @@ def test_a_header_that_claims_another_size_is_refused(tmp_path, shape):
     content = path.read_bytes()
     claimed = content[:128].replace(b"(2, 3)", shape.encode()).replace(b" " * (len(shape) - 6), b"", 1)[:127] + b"\n"
     path.write_bytes(claimed + content[128:])
-    with pytest.raises(sw.DataError, match=r"line.npy .*(would make a section of|says that it holds)"):
+    with pytest.raises(sw.DataError, match=r"line.npy .*(would make a section of|claims to hold)"):
         sw.open_section(path, **AXES)
 
 
 def test_a_header_that_python_cannot_parse_is_refused(tmp_path):
     path = npy(tmp_path / "line.npy", MATRIX)
     path.write_bytes(path.read_bytes().replace(b"(2, 3)", b"(2, 3("))
-    with pytest.raises(sw.DataError, match=r"line.npy is damaged, or no matrix"):
+    with pytest.raises(sw.DataError, match=r"line.npy is damaged, or not a matrix"):
         sw.open_section(path, **AXES)
 
 
@@ -131,12 +133,12 @@ def test_an_npz_that_would_unpack_to_too_much_is_refused_packed(tmp_path, monkey
     "content",
     ["1 2.5 -3\n4 nan 6\n", "# x\n1,2.5,-3\n\n4,nan,6", "1;2.5;-3\r\n4;NaN;6", "1\t2.5\t-3 # one\n4\tnan\t6\n"],
 )
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig"])
-def test_text_of_every_delimiter(tmp_path, content, encoding):
-    path = text(tmp_path / "line.txt", content, encoding)
-    np.testing.assert_array_equal(sw.open_section(path, **AXES).amplitude, MATRIX)
-    info = sw.preview(path)
-    assert (info.kind, info.shape) == ("text", (2, 3))
+def test_text_of_every_delimiter(tmp_path, content):
+    for encoding in ("utf-8", "utf-8-sig"):
+        path = text(tmp_path / "line.txt", content, encoding)
+        np.testing.assert_array_equal(sw.open_section(path, **AXES).amplitude, MATRIX)
+        info = sw.preview(path)
+        assert (info.kind, info.shape) == ("text", (2, 3))
 
 
 def test_text_is_known_without_a_suffix(tmp_path):
@@ -149,9 +151,13 @@ def test_text_is_known_without_a_suffix(tmp_path):
         ("# m\n1 2\n3\n", "utf-8", ": row 3 has 1 values, and those before it 2; write .* decimal point"),
         ("one two\n3 4\n", "utf-8", ": row 1, value 1 must be a number, but is 'one'; write "),
         ("\n1,5;2,5\n3,5;4,5\n", "utf-8-sig", ": row 2, value 1 must be a number, but is '1,5'; write "),
-        ("1,,3\n4,5,6\n", "utf-8", ": row 1, value 2 must be a number, but is ''; write .* nan where there is none"),
-        ("1 2\n3 4 é", "latin-1", " is damaged, or no matrix of numbers: .* as UTF-8"),
-        ("1 2\n3 4", "utf-16", " is damaged, or no matrix of numbers: .* as UTF-8"),
+        (
+            "1,,3\n4,5,6\n",
+            "utf-8",
+            ": row 1, value 2 must be a number, but is ''; write .* nan where there are no data",
+        ),
+        ("1 2\n3 4 é", "latin-1", " is damaged, or not a matrix of numbers: .* in UTF-8"),
+        ("1 2\n3 4", "utf-16", " is damaged, or not a matrix of numbers: .* in UTF-8"),
         ("#", "utf-8", " must hold a matrix"),
     ],
 )
@@ -161,13 +167,13 @@ def test_text_that_is_no_matrix(tmp_path, content, encoding, message):
 
 
 def test_a_text_in_one_row_is_refused_before_it_is_read(tmp_path, monkeypatch):
-    monkeypatch.setattr("seiswidgets.io.rasters.arrays.MOST_ROW", 10)
-    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write a row for each sample"):
+    monkeypatch.setattr("seiswidgets.io.rasters.arrays.MOST_ROW_CHARACTERS", 10)
+    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write one row for each sample"):
         sw.open_section(text(tmp_path / "line.txt", "1 2 3 4 5 6\n1 2 3 4 5 6\n"), **AXES)
 
 
 def test_what_is_infinite_or_nothing_at_all_is_refused(tmp_path):
-    with pytest.raises(sw.DataError, match=r"line.txt has an infinite amplitude, at sample 1 of trace 0"):
+    with pytest.raises(sw.DataError, match=r"line.txt has an infinite amplitude at sample 1 of trace 0"):
         sw.open_section(text(tmp_path / "line.txt", "1 2\n1e999 4\n"), **AXES)
     with pytest.raises(sw.DataError, match=r"line.npy has no amplitudes: all 4 are NaN"):
         sw.open_section(npy(tmp_path / "line.npy", np.full((2, 2), np.nan)), **AXES)
@@ -181,7 +187,7 @@ def test_an_array_that_is_no_matrix(tmp_path, array):
 
 def test_axes_are_asked_for(tmp_path):
     path = npy(tmp_path / "line.npy", MATRIX)
-    with pytest.raises(sw.SettingError, match=r"line.npy does not say how long and how deep"):
+    with pytest.raises(sw.SettingError, match=r"line.npy does not say how wide and how deep"):
         sw.open_section(path, z_unit="m", dx=1)
     with pytest.raises(sw.SettingError, match=r"line.npy does not say whether it is in time or in depth"):
         sw.open_section(path, dx=1, dz=1)

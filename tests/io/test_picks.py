@@ -114,7 +114,7 @@ def test_z_that_grows_upwards_is_not_taken_for_depth(tmp_path):
 
 
 OPENDTECT_HORIZON = """\
-# "PickLine name" "X" "Y" "TraceNr" "ShotPointNr" "Z (ms)"
+# "Line name" "X" "Y" "TraceNr" "ShotPointNr" "Z (ms)"
  "L 1"      100.00      500.00         1      1.00   100.000
  "L 1"      110.00      500.00         2      2.00   101.000
  "L 1"      120.00      500.00         3      3.00   1e30
@@ -127,7 +127,7 @@ OPENDTECT_HORIZON = """\
 """
 MULTI_LINE_HEADER = """\
 # 1: Horizon Name
-# 2: PickLine Name
+# 2: Line Name
 # 3: X
 # 4: Y
 # 5: Trace Nr
@@ -181,14 +181,14 @@ def test_opendtect_horizons_keep_their_pieces(tmp_path):
         ("Top", [[[100, 100], [110, 101]], [[130, 140], [140, 141]], [[160, 150], [170, 151]]])
     ]
     with pytest.raises(
-        DataError, match=r"Top.dat holds picks on several seismic lines: 'L 1', 'L 2'; choose one by line="
+        DataError, match=r"Top.dat holds picks on several seismic lines: 'L 1', 'L 2'; choose one with line="
     ):
         sw.read_picks(path, TIME, **choices)
     with pytest.raises(DataError, match="no picks on line='L3'; there are 'L 1', 'L 2'"):
         sw.read_picks(path, TIME, line="L3", **choices)
-    with pytest.raises(DataError, match="does not say its x_unit; give x_unit="):
+    with pytest.raises(DataError, match="does not state its x_unit; give x_unit="):
         sw.read_picks(path, TIME, format="opendtect-horizons", along="x", line="L 1")
-    with pytest.raises(DataError, match="say by along= where they are on the section"):
+    with pytest.raises(DataError, match="choose with along= how they lie along the section"):
         sw.read_picks(path, TIME, format="opendtect-horizons", x_unit="m", line="L 1")
 
 
@@ -202,7 +202,7 @@ def test_opendtect_header_of_many_rows_gives_names_and_unit(tmp_path):
 def test_opendtect_horizons_without_header_need_a_unit(tmp_path):
     path = written(tmp_path, "bare.dat", "100 500 1 1 0.1\n110 500 2 2 0.2\n")
     choices = {"format": "opendtect-horizons", "x_unit": "m", "along": "x"}
-    with pytest.raises(DataError, match="does not say its z_unit"):
+    with pytest.raises(DataError, match="does not state its z_unit"):
         sw.read_picks(path, TIME, **choices)
     (horizon,) = sw.read_picks(path, TIME, z_unit="s", **choices).horizons
     assert horizon.name == "bare"
@@ -255,7 +255,7 @@ def test_charisma_rows_may_end_with_the_horizons_name(tmp_path):
     choices = {"format": "charisma-horizons", "x_unit": "m", "z_unit": "m", "along": "x", "line": "inline 362"}
     assert [horizon.name for horizon in sw.read_picks(path, DEPTH, **choices).horizons] == ["Base Chalk"]
     written(tmp_path, "all.txt", CHARISMA_HORIZON.replace("0\n", "0 0.77\n"))
-    with pytest.raises(DataError, match="row 1 must be INLINE : number XLINE : number X Y Z, and a name or none"):
+    with pytest.raises(DataError, match="row 1 must be INLINE : number XLINE : number X Y Z and an optional name"):
         sw.read_picks(path, DEPTH, **choices)
 
 
@@ -269,9 +269,9 @@ def test_a_fault_leaves_out_points_without_depth(tmp_path, undefined):
 
 def test_choices_of_exports_have_no_meaning_for_ours(tmp_path):
     sw.write_picks(SIMPLE, tmp_path / "a.csv", TIME)
-    for choice in ({"along": "x"}, {"line": "L 1"}):
-        with pytest.raises(sw.SettingError, match="along= and line= have no meaning for csv"):
-            sw.read_picks(tmp_path / "a.csv", TIME, **choice)
+    for name, value in (("along", "x"), ("line", "L 1")):
+        with pytest.raises(sw.SettingError, match=f"{name}= has no meaning for csv"):
+            sw.read_picks(tmp_path / "a.csv", TIME, **{name: value})
 
 
 def test_charisma_faults_may_have_blanks_in_their_names(tmp_path):
@@ -293,7 +293,7 @@ def test_cps3_lines_are_faults_or_the_pieces_of_a_horizon(tmp_path):
 
 def test_points_that_stand_alone_are_left_out_with_a_warning(tmp_path):
     path = written(tmp_path, "Top.dat", OPENDTECT_HORIZON.replace("140.000\n", "1e30\n"))
-    with pytest.warns(UserWarning, match="left out 1 points that stand alone and make no line, of 'Top'") as warned:
+    with pytest.warns(UserWarning, match="left out 1 single point that cannot form a line, of 'Top'") as warned:
         (horizon,) = sw.read_picks(path, TIME, format="opendtect-horizons", x_unit="m", along="x", line="L 1").horizons
     assert len(horizon.pieces) == 2
     assert warned[0].filename == __file__
@@ -317,11 +317,11 @@ def feature(kind="fault", geometry="LineString", coordinates="[[0, 0], [1, 1]]",
     ("name", "text", "match"),
     [
         ("a.csv", "", "a.csv is empty; its first row must name the columns kind, name"),
-        ("a.csv", "x,z\n1,2\n", "row 1 must name the columns .* missing or doubled: kind, name, piece"),
+        ("a.csv", "x,z\n1,2\n", "row 1 must name the columns .* missing or repeated: kind, name, piece"),
         ("a.csv", HEADER + "fault,F,1,a,2\n", "row 2: x must be a number .* 'a'"),
         ("a.csv", HEADER + "fault,F,1,1,nan\n", "row 2: z must be a number .* 'nan'"),
         ("a.csv", HEADER + "fault,F,1,1,1e300\n", "row 2: z must be a number"),
-        ("a.csv", HEADER + "fault,F,1,1\n", "row 2 must have 5 values as the first, but has 4"),
+        ("a.csv", HEADER + "fault,F,1,1\n", "row 2 must have 5 values like the first row, but has 4"),
         ("a.csv", HEADER + "dyke,F,1,1,1\n", "row 2: kind must be 'fault' or 'horizon', but is 'dyke'"),
         ("a.csv", HEADER + 'fault,"F,1,1,1\n', "row 2 is not CSV"),
         ("a.csv", HEADER + "fault,F,1,1,1\n", "row 2: fault 'F' needs at least two different points"),
@@ -338,7 +338,7 @@ def feature(kind="fault", geometry="LineString", coordinates="[[0, 0], [1, 1]]",
         ("a.json", "[]", "must be an object .* but is a list of 0"),
         ("a.json", '{"type": "FeatureCollection"}', "lacks 'seiswidgets_picks'"),
         ("a.json", feature().replace('"version": 1', '"version": 9'), "version 9 .* update seiswidgets"),
-        ("a.json", feature(coordinates="[[0, 0], [1, NaN]]"), "NaN is no number in JSON"),
+        ("a.json", feature(coordinates="[[0, 0], [1, NaN]]"), "NaN is not a number in JSON"),
         (
             "a.json",
             feature(coordinates="[[0, 0], [1, 1e999]]"),
@@ -370,7 +370,7 @@ def test_what_cannot_be_read_is_an_error_that_says_where(tmp_path, name, text, m
         ("opendtect-horizons", "", "holds no picks"),
         ("opendtect-horizons", "1 2 3\n", "row 1 must be names in quotes .* 0 names and 3 values"),
         ("opendtect-horizons", "a 2 3 4 5\n", "row 1: X must be a number .* 'a'"),
-        ("opendtect-faults", "1\t2\t3\t4\n", "row 1 must be the fault's name .* with both indices"),
+        ("opendtect-faults", "1\t2\t3\t4\n", "row 1 must be an optional fault name .* with both indices"),
         ("charisma-horizons", "INLINE : 1 2 3 4 5\n", "row 1 must be INLINE : number XLINE : number X Y Z"),
         ("charisma-faults", "INLINE- 1 2 3 4 5 six\n", "row 1 must be INLINE- inline crossline X Y Z"),
         ("cps3-faults", "->\n1 2\n", "row 2 must be X, Y and Z, but has 2 values"),
@@ -386,7 +386,7 @@ def test_exports_that_are_not_as_documented_are_refused(tmp_path, kind, text, ma
 @pytest.mark.parametrize(
     ("along", "match"),
     [
-        ("trace", "along= must be 'x', 'y', a function, or a list of two points"),
+        ("trace", "along= must be 'x', 'y', a function, or a list of two or more points"),
         ([(0, 0)], "along= must be"),
         ([(1, 1), (1, 1)], "along= must be"),
         (lambda x, y, trace: x[:1], r"must return a finite number for each of 2 points"),
@@ -403,10 +403,10 @@ def test_a_place_on_the_section_must_be_found(tmp_path, along, match):
 def test_the_format_is_told_by_the_suffix_or_asked_for(tmp_path):
     path = written(tmp_path, "a.dat", "")
     with pytest.raises(
-        SettingError, match=r"cannot be told by its suffix; give format=, one of geojson, csv, opendtect"
+        SettingError, match=r"its suffix does not tell its format; give format=, one of geojson, csv, opendtect"
     ):
         sw.read_picks(path, DEPTH)
-    with pytest.raises(SettingError, match="format must be one of geojson, csv, but is 'charisma-faults'"):
+    with pytest.raises(SettingError, match="format= must be one of geojson, csv, but is 'charisma-faults'"):
         sw.write_picks(SIMPLE, path, DEPTH, format="charisma-faults")
 
 
@@ -418,13 +418,13 @@ def test_files_that_are_not_there_or_too_large_are_not_read(tmp_path):
     for name, size in (("a.json", 9 * 2**20), ("a.csv", 9 * 2**20)):
         path = written(tmp_path, name, "")
         os.truncate(path, size)  # sparse
-        with pytest.raises(DataError, match=r"holds \d+ MiB, and picks of one section fit in"):
+        with pytest.raises(DataError, match=r"holds \d+ MiB, but the limit for the picks of one section is"):
             sw.read_picks(path, DEPTH)
 
 
 def test_more_points_than_there_may_be_are_refused(tmp_path, monkeypatch):
     monkeypatch.setattr("seiswidgets.io.picks.map_points.MOST_POINTS", 2)
-    with pytest.raises(DataError, match=r"a.cps3: row 7 is one more than the 2 points that there may be on a line"):
+    with pytest.raises(DataError, match=r"a.cps3: row 7 exceeds the limit of 2 points on a line"):
         sw.read_picks(written(tmp_path, "a.cps3", CPS3), DEPTH, format="cps3-faults", along="x")
 
 
@@ -437,7 +437,7 @@ def test_rows_are_counted_as_editors_count_them(tmp_path):
 def test_what_could_not_be_read_again_is_not_written(tmp_path):
     x = np.linspace(0, 1, 250_000) / 3
     with pytest.raises(
-        DataError, match=r"a.json would hold 1\d MiB, and only 8 could be read again; keep fewer points"
+        DataError, match=r"a.json would hold 1\d MiB, more than the 8 MiB that can be read again; keep fewer points"
     ):
         sw.write_picks(picks(F1=[np.column_stack([x, x])]), tmp_path / "a.json", DEPTH)
     assert not list(tmp_path.iterdir())
@@ -481,13 +481,13 @@ def test_a_file_that_cannot_be_replaced_stays_as_it_was(tmp_path, name, monkeypa
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(DataError, match="cannot be written: No space left on device; make room"):
+    with pytest.raises(DataError, match="cannot be written: No space left on device; free some space"):
         sw.write_picks(sw.Interpretation(), tmp_path / name, DEPTH)
     assert (tmp_path / name).read_bytes() == before
     assert [file.name for file in tmp_path.iterdir()] == [name]
 
 
 def test_half_a_character_in_a_name_cannot_be_written_as_csv(tmp_path):
-    with pytest.raises(DataError, match="a name holds half a character"):
+    with pytest.raises(DataError, match="a name contains an unpaired surrogate"):
         sw.write_picks(picks(**{"F\ud800": [[(0, 0), (1, 1)]]}), tmp_path / "a.csv", DEPTH)
     assert not list(tmp_path.iterdir())

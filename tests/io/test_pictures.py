@@ -161,7 +161,7 @@ def test_of_several_pages_the_first_is_taken(tmp_path):
 
 def test_axes_are_asked_for(tmp_path):
     path = saved(tmp_path / "scan.png", GREY)
-    with pytest.raises(sw.SettingError, match=r"scan.png does not say how long and how deep it is: give extent="):
+    with pytest.raises(sw.SettingError, match=r"scan.png does not say how wide and how deep it is: give extent="):
         sw.open_section(path, z_unit="m")
     with pytest.raises(sw.SettingError, match=r"scan.png does not say whether it is in time or in depth"):
         sw.open_section(path, extent=EXTENT)
@@ -173,7 +173,7 @@ def test_axes_are_asked_for(tmp_path):
 
 @pytest.mark.parametrize("extent", [(300, 100, 0, 1), (0, 1, 2), "wide", (0, np.inf, 0, 1)])
 def test_an_extent_that_is_none(tmp_path, extent):
-    with pytest.raises(sw.SettingError, match="extent must be"):
+    with pytest.raises(sw.SettingError, match="extent= must be"):
         sw.open_section(saved(tmp_path / "scan.png", GREY), extent=extent, z_unit="m")
 
 
@@ -185,7 +185,7 @@ def test_choices_of_segy_have_no_meaning(tmp_path, choice):
 
 
 def test_an_extent_and_a_spacing_are_one_too_many(tmp_path):
-    with pytest.raises(sw.SettingError, match="dx= has no meaning for an extent"):
+    with pytest.raises(sw.SettingError, match="dx= has no meaning for a file whose extent is given"):
         sw.open_section(saved(tmp_path / "scan.png", GREY), extent=EXTENT, dx=1, z_unit="m")
 
 
@@ -193,7 +193,7 @@ def test_a_picture_with_too_many_pixels_is_refused_undecoded(tmp_path, monkeypat
     path = saved(tmp_path / "scan.png", GREY)
     monkeypatch.setattr(images, "MOST_PIXELS", 5)
     monkeypatch.setattr(Image.Image, "load", lambda image: pytest.fail("decoded"))
-    with pytest.raises(sw.DataError, match=r"scan.png is a picture of 3 x 2 pixels; there may be 5"):
+    with pytest.raises(sw.DataError, match=r"scan.png is an image of 3 x 2 pixels; the limit is 5"):
         sw.preview(path)
 
 
@@ -202,14 +202,14 @@ def test_a_png_that_claims_a_thousand_million_pixels_is_refused(tmp_path):
     content[16:24] = (40_000).to_bytes(4, "big") * 2
     content[29:33] = zlib.crc32(content[12:29]).to_bytes(4, "big")
     (tmp_path / "scan.png").write_bytes(content)
-    with pytest.raises(sw.DataError, match=r"scan.png is too large a picture"):
+    with pytest.raises(sw.DataError, match=r"scan.png is too large an image"):
         sw.preview(tmp_path / "scan.png")
 
 
 def test_half_a_picture_is_an_error(tmp_path):
     path = saved(tmp_path / "scan.png", np.random.default_rng(0).integers(0, 255, (50, 50), np.uint8))
     path.write_bytes(path.read_bytes()[:1000])
-    with pytest.raises(sw.DataError, match=r"scan.png is a damaged picture.*save it anew as PNG"):
+    with pytest.raises(sw.DataError, match=r"scan.png is a damaged image.*save it again as PNG"):
         sw.open_section(path, extent=EXTENT, z_unit="m")
 
 
@@ -219,7 +219,7 @@ def test_a_picture_that_lacks_its_lower_part_is_refused(tmp_path):
     height = content.index((257).to_bytes(2, "little")) + 8
     path.write_bytes(content[:height] + (1_000_000).to_bytes(4, "little") + content[height + 4 :])
     with pytest.raises(
-        sw.DataError, match=r"scan.tif says that it has 3 x 1000000 pixels, but holds 1 of the 500,000 strips"
+        sw.DataError, match=r"scan.tif claims to have 3 x 1000000 pixels, but holds 1 of the 500,000 strips"
     ):
         sw.preview(path)
 
@@ -460,11 +460,11 @@ def test_tiles_that_a_sparse_file_leaves_out_are_no_data(tmp_path):
     [
         (np.ones((4, 5), np.complex64), {}, "holds complex numbers; save their real part"),
         (np.ones((4, 5), np.complex128), {}, "holds complex numbers; save their real part"),
-        (np.ones((4, 5, 4), np.uint8), {"photometric": "separated"}, "is in the colours SEPARATED"),
-        (np.ones((4, 5, 3), np.uint8), {"photometric": "cielab"}, "is in the colours CIELAB"),
-        (np.ones((4, 5, 2), np.uint8), {"planarconfig": "contig"}, "has 2 bands, and must have one"),
-        (np.ones((5, 4, 6), np.float32), {"planarconfig": "separate"}, "has 5 bands, and must have one"),
-        (np.ones((16, 16, 16), np.uint8), {"volumetric": True, "tile": (16, 16, 16)}, "must be a flat picture"),
+        (np.ones((4, 5, 4), np.uint8), {"photometric": "separated"}, "has the colours SEPARATED"),
+        (np.ones((4, 5, 3), np.uint8), {"photometric": "cielab"}, "has the colours CIELAB"),
+        (np.ones((4, 5, 2), np.uint8), {"planarconfig": "contig"}, "has 2 bands, but must have one"),
+        (np.ones((5, 4, 6), np.float32), {"planarconfig": "separate"}, "has 5 bands, but must have one"),
+        (np.ones((16, 16, 16), np.uint8), {"volumetric": True, "tile": (16, 16, 16)}, "must be a flat image"),
     ],
 )
 def test_what_is_no_picture_of_a_section_is_refused(tmp_path, samples, choices, message):
@@ -477,11 +477,11 @@ def test_what_is_no_picture_of_a_section_is_refused(tmp_path, samples, choices, 
 @pytest.mark.parametrize(
     ("tags", "message"),
     [
-        ({"Compression": 34887}, "is compressed by LERC, which takes the package imagecodecs"),
-        ({"Compression": 50000}, "is compressed by ZSTD, which takes the package imagecodecs"),
-        ({"Compression": 4711}, "is compressed by method 4711"),
-        ({"BitsPerSample": 24}, "holds 24-bit signed integers; .* can be read"),
-        ({"Compression": 4}, "has 8-bit samples in a compression of 1-bit ones"),
+        ({"Compression": 34887}, "is compressed with LERC, which requires the package imagecodecs"),
+        ({"Compression": 50000}, "is compressed with ZSTD, which requires the package imagecodecs"),
+        ({"Compression": 4711}, "is compressed with method 4711"),
+        ({"BitsPerSample": 24}, "holds 24-bit signed integers; .* are supported"),
+        ({"Compression": 4}, "has 8-bit samples in a compression for 1-bit ones"),
         ({"SampleFormat": 9}, "holds 8-bit samples of unknown format"),
     ],
 )
@@ -503,7 +503,7 @@ def test_a_strip_that_is_cut_short_is_refused(tmp_path, compress):
     path = tiff(tmp_path / "line.tif", samples)
     data = compress(samples.tobytes())
     with_data(path, data[: len(data) // 2], Compression=number)
-    with pytest.raises(sw.DataError, match=r"line.tif (is a damaged picture|says that it has 60 x 50 pixels)"):
+    with pytest.raises(sw.DataError, match=r"line.tif (is a damaged image|claims to have 60 x 50 pixels)"):
         opened(path)
 
 
@@ -577,7 +577,7 @@ def test_a_jpeg_in_the_colours_of_print_is_refused(tmp_path):
 @pytest.mark.parametrize("suffix", [".gif", ".bmp", ".webp"])
 def test_other_pictures_are_refused(tmp_path, suffix):
     path = saved(tmp_path / f"scan{suffix}", GREY)
-    with pytest.raises(sw.DataError, match=f"scan{suffix} is of no kind that is read here; convert it to SEG-Y, PNG"):
+    with pytest.raises(sw.DataError, match=f"scan{suffix} is in an unsupported file format; convert it to SEG-Y, PNG"):
         sw.preview(path)
 
 

@@ -45,7 +45,7 @@ def refused(path, match, name="dx", **value):
     info = sw.preview(path)
     assert name in info.needed
     assert getattr(info, name) is None
-    assert any(name + "=" in reason for reason in info.reasons)
+    assert any(f.severity == "problem" and name + "=" in f.text for f in info.findings)
     assert getattr(opened(path, **value), name) == value[name]
 
 
@@ -67,7 +67,7 @@ def test_positions_stored_as_floats_are_recognised(save, stored, words, scalar, 
     assert opened(path).dx == pytest.approx(dx, rel=1e-3)
     info = sw.preview(path)
     assert info.dx == pytest.approx(dx, rel=1e-3)
-    assert any(f"bytes 181 and 185) are read as {words} floats" in note for note in info.notes)
+    assert any(f"bytes 181 and 185) are read as {words} floats" in finding.text for finding in info.findings)
 
 
 def test_floats_of_either_kind_are_told_apart_by_their_evenness(save):
@@ -78,7 +78,7 @@ def test_floats_of_either_kind_are_told_apart_by_their_evenness(save):
 
 def test_floats_that_may_be_of_either_kind_are_refused(save):
     headers = [{181: ibm_bits(1000 + 25 * n), 185: ibm_bits(500)} for n in range(20)]
-    refused(save(headers), r"25 apart as IBM floats; say which distance holds: dx=", dx=25)
+    refused(save(headers), r"25 apart as IBM floats; give the distance that is right: dx=", dx=25)
     headers = [{181: ieee(EAST + 50 * n), 185: ieee(NORTH), 71: -100} for n in range(COUNT)]
     refused(save(headers), "50 apart as IEEE floats or 0.5 apart as IEEE floats with their scalar", dx=50)
 
@@ -104,7 +104,7 @@ def test_floats_are_checked_as_integers_are(save):
         (line(2500, 100 * EAST, 100 * NORTH, scalar=100), "scalar should be -100, the traces are 25 apart: dx=25"),
         (line(250, 10 * EAST, NORTH, scalar=10), "scalar should be -10, the traces are 25 apart: dx=25"),
         (line(12_500, 1000 * EAST, 0), "in millimetres, the traces are 12.5 apart: dx=12.5"),
-        (line(82, 1_800_000, 10_400_000), 'if they are in feet: x_unit="ft"'),
+        (line(82, 1_800_000, 10_400_000), "if they are in feet: x_unit='ft'"),
     ],
 )
 def test_positions_beyond_every_map_are_refused(save, headers, said):
@@ -156,8 +156,9 @@ def test_the_users_unit_counts_for_what_is_plausible(save):
 
 
 def test_wide_spacings_are_believed_but_noted(save):
-    (note,) = sw.preview(save(line(125, 1000, 500))).notes
-    assert note == "traces are 125 m apart, which is much: if positions are in tenths of that unit, give dx=12.5"
+    (finding,) = sw.preview(save(line(125, 1000, 500))).findings
+    assert finding.severity == "warning"
+    assert finding.text == "traces are 125 m apart, which is far: if positions are in tenths of that unit, give dx=12.5"
 
 
 @pytest.mark.parametrize(
@@ -222,14 +223,16 @@ def test_rounded_positions_do_not_make_a_crooked_line_longer(save):
 def test_traces_without_positions_at_the_ends_are_named(save, first, last):
     headers = [{181: (EAST + 25 * n) * (first <= n < last), 185: NORTH * (first <= n < last)} for n in range(COUNT)]
     path = save(headers)
-    refused(path, rf"{COUNT - last + first} of them, .* at \(0, 0\).* traces=slice\({first}, {last}\)", dx=25)
+    refused(
+        path, rf"{COUNT - last + first} traces at the ends are at \(0, 0\).* traces=range\({first}, {last}\)", dx=25
+    )
     assert opened(path, traces=slice(first, last)).dx == 25
 
 
 @pytest.mark.parametrize(
     ("interval", "match"),
     [
-        (0, "says no sample interval"),
+        (0, "states no sample interval"),
         (4, "0.004 ms.* other units than thousandths"),
         (2, "0.002 ms.* other units than thousandths"),
         (61_536, "61.536 ms.* may be negative"),  # -4000
@@ -246,7 +249,7 @@ def test_intervals_that_contradict_each_other_name_both(save, general, own):
 
 
 def test_records_longer_than_any_are_refused(save):
-    refused(save(straight(2), samples=10_000, interval=32_000), r"10000 samples 32 ms.* take 319.968 s", "dz", dz=0.032)
+    refused(save(straight(2), samples=10_000, interval=32_000), r"10000 samples 32 ms.* 319.968 s", "dz", dz=0.032)
 
 
 @pytest.mark.parametrize(
@@ -298,8 +301,8 @@ def test_trace_headers_and_size_count_over_a_wrong_number_of_samples(save, state
     sound = opened(save(headers, code=code))
     path = save(headers, code=code, binary={3221: stated})
     np.testing.assert_array_equal(opened(path).amplitude, sound.amplitude)
-    (note,) = sw.preview(path).notes
-    assert note.startswith(f"the binary header states {stated} samples a trace (bytes 3221-3222); 8 are read")
+    (finding,) = sw.preview(path).findings
+    assert finding.text.startswith(f"the binary header states {stated} samples per trace (bytes 3221-3222); 8 are read")
 
 
 def test_a_number_of_samples_that_fits_by_chance_does_not_count(save):
@@ -311,7 +314,7 @@ def test_a_number_of_samples_that_fits_by_chance_does_not_count(save):
 def test_the_size_counts_over_trace_headers_that_state_another_number(save):
     path = save([header | {115: 1000} for header in straight(COUNT)])
     assert opened(path).shape == (8, COUNT)
-    assert "trace headers state other numbers of samples" in sw.preview(path).notes[0]
+    assert "trace headers state other numbers of samples" in sw.preview(path).findings[0].text
 
 
 @pytest.mark.parametrize("free", [range(3261, 3600, 2), [3505], [3269, 3271], [3501]])
@@ -325,7 +328,7 @@ def test_zeros_behind_the_last_trace_are_ignored_if_trace_headers_confirm(save, 
     path = save([header | {115: 2000} for header in straight(3)], samples=2000)
     path.write_bytes(path.read_bytes() + bytes(count))
     assert opened(path).shape == (2000, 3)
-    assert sw.preview(path).notes == (f"{count} zero bytes behind the last trace are ignored",)
+    assert [f.text for f in sw.preview(path).findings] == [f"{count} zero bytes after the last trace are ignored"]
     path = save(straight(3), samples=2000)
     path.write_bytes(path.read_bytes() + bytes(count))
     with pytest.raises(sw.DataError, match=f"and {count} bytes are left"):

@@ -36,6 +36,7 @@ IGNORED = re.compile(
     "|@jupyter-notebook/lab-extension"  # that Voila cannot load
     "|reading 'schema'"  # Notebook 7.6 says so of a notebook without any widget too
 )
+PREPARED, LOAD = "prepared", "exec('import seiswidgets.widgets.app', {})"
 START, RUN, COMMAND = 60, 60, 180  # seconds: the server's start, anything in the page, all cells of a notebook
 expect.set_options(timeout=RUN * 1000)
 
@@ -48,6 +49,7 @@ class Server:
 
     def __init__(self, folder, python=sys.executable):
         self.folder, self.token, self.port = folder / "work", secrets.token_hex(16), _free_port()
+        self._prepared = None
         self.folder.mkdir()
         settings = folder / "settings"
         (settings / "lab").mkdir(parents=True)
@@ -58,6 +60,7 @@ class Server:
         path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
         environment = {**os.environ, **home, "PYTHONPATH": path if python == sys.executable else ""}
         environment.pop("MPLBACKEND", None)  # or no kernel would show a picture
+        environment["JUPYTER_PATH"] = str(_write_kernel(folder / "data", python))
         command = [str(python), "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1"]
         command += [f"--port={self.port}", "--ServerApp.port_retries=0", f"--IdentityProvider.token={self.token}"]
         command += [f"--ServerApp.root_dir={self.folder}", f"--LabApp.user_settings_dir={settings}"]
@@ -83,9 +86,21 @@ class Server:
             time.sleep(0.2)
         pytest.fail(f"JupyterLab did not start:\n{self.log.read_text()[-3000:]}")
 
+    def prepare(self):
+        """Start a kernel that imports the package, for the next notebook: that takes longest of opening one."""
+        if self._prepared is None:
+            self._prepared = self._asked("kernels", "POST", {"name": PREPARED})["id"]
+
+    def prepared(self):
+        """The kernel that was prepared, which is used once, or None."""
+        kernel, self._prepared = self._prepared, None
+        return kernel
+
     def end_kernels(self):
         """End what the pages, which are closed now, have left to run."""
         for kernel in self._asked("kernels"):
+            if kernel["id"] == self._prepared:
+                continue
             with contextlib.suppress(urllib.error.HTTPError):  # Voila has ended it meanwhile
                 self._asked(f"kernels/{kernel['id']}", "DELETE")
 
@@ -97,10 +112,11 @@ class Server:
             ended(processes)
             self.process.wait()
 
-    def _asked(self, path, method="GET"):
+    def _asked(self, path, method="GET", content=None):
         """What its interface answers."""
-        token = {"Authorization": f"token {self.token}"}
-        request = urllib.request.Request(f"http://127.0.0.1:{self.port}/api/{path}", method=method, headers=token)
+        token, address = {"Authorization": f"token {self.token}"}, f"http://127.0.0.1:{self.port}/api/{path}"
+        data = None if content is None else json.dumps(content).encode()
+        request = urllib.request.Request(address, data, token, method=method)
         with urllib.request.urlopen(request, timeout=RUN) as answer:
             return json.loads(answer.read() or "null")
 
@@ -181,11 +197,14 @@ class Notebook(Page):
         self.page.wait_for_function("window.jupyterapp?.restored.then(() => true)")
         self.command("application:toggle-left-area")
 
-    def open(self, path, *, dark=False, width=1200, height=900):
-        """Open a notebook of the server's folder, in JupyterLab's light or dark theme, and run its cells."""
+    def open(self, path, *, kernel=None, dark=False, width=1200, height=900):
+        """Open a notebook of the server's folder, in JupyterLab's light or dark theme, and run its cells.
+
+        The kernel is a new one, or that of an id.
+        """
         self.address = self.lab.address(path)
         self.page.set_viewport_size({"width": width, "height": height})
-        self.command("docmanager:open", {"path": path})
+        self.command("docmanager:open", {"path": path, "kernel": kernel and {"id": kernel}})
         self.page.wait_for_function(READY, polling=50)
         self.darken(dark)
         self.run()
@@ -315,6 +334,15 @@ def keep_picture(shown, name):
     """Keep a screenshot of a page or a part of it, to be looked at."""
     SCREENSHOTS.mkdir(exist_ok=True)
     (SCREENSHOTS / f"{name}.png").write_bytes(shown.screenshot())  # if Playwright wrote it, a thread of it would stay
+
+
+def _write_kernel(folder, python):
+    """Write the specification of a kernel that has the package loaded, and give back the folder to look for it in."""
+    made = folder / "kernels" / PREPARED
+    made.mkdir(parents=True)
+    call = [str(python), "-m", "ipykernel_launcher", "-f", "{connection_file}", f"--IPKernelApp.exec_lines={LOAD}"]
+    (made / "kernel.json").write_text(json.dumps({"argv": call, "display_name": PREPARED, "language": "python"}))
+    return folder
 
 
 def _free_port():

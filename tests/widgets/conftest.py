@@ -90,7 +90,8 @@ def notebook(lab, chromium, spare, request):
         plain = ratio == 1 and not touch
         one = spare.pop() if plain and spare else Notebook(lab, chromium, ratio=ratio, touch=touch)
         opened.append((one, plain))
-        one.open(path or lab.write(cells), **options)
+        one.open(path or lab.write(cells), kernel=None if path else lab.prepared(), **options)
+        lab.prepare()
         return one
 
     yield open_notebook

@@ -12,7 +12,7 @@ import segyio
 import xarray
 
 import seiswidgets as sw
-from seiswidgets.errors import DataError, SettingError
+from seiswidgets.errors import DataError, Keyword, SettingError
 from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.files import picks_files, result_files, section_opener
 from seiswidgets.widgets.files.file_field import FileField
@@ -112,7 +112,7 @@ def test_a_line_of_a_volume_needs_its_number(app, tmp_path):
     assert 'must be two numbers, as in "0 to 99"' in opener.notice.text
     load(app, path, line="inline", number="99", z_unit="m")
     assert "its first trace has 10 there" in opener.notice.text
-    assert "stand at other bytes, give “other header bytes”" in opener.notice.text
+    assert "the numbers are at other bytes, give “other header bytes”" in opener.notice.text
 
 
 def test_some_traces_of_a_line_are_opened(app, tmp_path):
@@ -161,9 +161,9 @@ def test_positions_that_are_of_no_use_are_said_before_opening(app, tmp_path):
     (tmp_path / "uneven.sgy").write_bytes(segy_bytes(traces, [{181: x} for x in (0, 25, 50, 110)]))
     opener = look(app, tmp_path / "uneven.sgy")
     assert "unevenly spaced traces: most are 25 apart" in opener.fields._note.value
-    assert "how far apart they shall count: “traces apart”" in opener.fields._note.value
+    assert "give the distance between traces: “traces apart”" in opener.fields._note.value
     load(app, tmp_path / "uneven.sgy", dx="0")
-    assert "uneven.sgy: “traces apart” must be above 0, but is 0" in opener.notice.text
+    assert "“traces apart” must be above 0, but is 0" in opener.notice.text
     (tmp_path / "old.sgy").write_bytes(segy_bytes(traces, [{73: x} for x in (0, 25, 50, 75)]))
     assert "give “other header bytes” {" in unescape(look(app, tmp_path / "old.sgy").fields._note.value)
 
@@ -461,13 +461,13 @@ def test_what_an_export_does_not_say_is_asked_for(app, tmp_path):
     (tmp_path / "export.txt").write_text("-> \n100 0 200\n300 0 260\n-> \n500 0 290\n")
     picks = app.files.picks
     assert picks._of_exports.layout.display == "none"
-    assert "export.txt: its format cannot be told by its suffix; give “format”" in take(picks, tmp_path / "export.txt")
+    assert "export.txt: its suffix does not tell its format; give “format”" in take(picks, tmp_path / "export.txt")
     picks.format.value = "cps3-horizons"
     assert picks._of_exports.layout.display == ""
     assert picks.x_unit.options[0][0] == "choose: the file does not say"
     assert "choose what “x comes from”" in take(picks, tmp_path / "export.txt")
     picks.along.value = "x"
-    assert "does not say its x_unit; give “unit of x”" in take(picks, tmp_path / "export.txt")
+    assert "does not state its x_unit; give “unit of x”" in take(picks, tmp_path / "export.txt")
     picks.x_unit.value = picks.z_unit.value = "m"
     assert "Read 0 faults and 1 horizon;" in take(picks, tmp_path / "export.txt")
     assert "left out" in picks.notice.text
@@ -608,7 +608,7 @@ def test_one_file_that_cannot_be_written_keeps_no_other_from_it(restored, tmp_pa
     kind, _ = result_files.WRITERS["report.json"]
 
     def fail(result, path):
-        raise DataError(f"{path} cannot be written: give x_unit=")
+        raise DataError(f"{path} cannot be written: give ", Keyword("x_unit"))
 
     monkeypatch.setitem(result_files.WRITERS, "report.json", (kind, fail))
     results = export_reports(restored, tmp_path)

@@ -31,15 +31,15 @@ job._tell = lambda stop, wanted, share: (share > 0.5 and stop.wait(60), tell(sto
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
 SAVED = """[len(version.session.faults) for version in
-    __import__("seiswidgets.io.session.autosave").io.autosave.found("{0}.json")][:1]"""
+    __import__("seiswidgets.io.session.autosave").io.session.autosave.find_versions("{0}.json")][:1]"""
 DISK = """exec('''
-from seiswidgets.io import writing
+from seiswidgets.io import files
 class Full:
     def __getattr__(self, name):
         return getattr(os, name)
     def replace(self, *names):
         raise OSError(28, "No space left on device")
-writing.os = Full() if {0} else os
+files.os = Full() if {0} else os
 ''')"""
 OFFLINE = 10  # seconds
 DROP = "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel._ws.close()"

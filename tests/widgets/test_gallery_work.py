@@ -252,7 +252,7 @@ def test_a_browser_that_keeps_nothing_is_said_as_long_as_that_lasts(opened):
 def test_a_name_that_no_text_can_hold_is_said_and_stays_in_the_kernel(opened):
     gallery = opened({})
     gallery.app.interpretation = sw.Interpretation([sw.Fault(FAULT, "half \ud800")])
-    assert "half a character" in gallery._warning.value
+    assert "unpaired surrogate" in gallery._warning.value
     gallery.choice = "graben"
     gallery.choice = "faulted_fold"
     assert gallery.app.picker.drawing.names("fault") == ("half \ud800",)

@@ -1,6 +1,5 @@
 import time
 
-import pytest
 from playwright.sync_api import expect
 
 from tests.widgets.browser import keep_picture
@@ -48,12 +47,16 @@ def shoot(opened, name):
     keep_picture(opened.page.locator(".seiswidgets-histogram").first, name)
 
 
-@pytest.mark.parametrize("dark", [False, True])
-def test_brushing_by_mouse(notebook, dark):
-    opened = notebook(CELL, dark=dark)
+def shoot_in_both_themes(opened, name):
+    for dark in (True, False):
+        opened.darken(dark)
+        shoot(opened, f"{name}-{'dark' if dark else 'light'}")
+
+
+def test_brushing_by_mouse(notebook):
+    opened = notebook(CELL)
     chart(opened)
-    look = "dark" if dark else "light"
-    shoot(opened, f"histogram-{look}")
+    shoot_in_both_themes(opened, "histogram")
     opened.page.mouse.move(*bar(opened, 25))
     opened.page.mouse.down()
     is_brushed(opened, 25, 25)
@@ -67,7 +70,7 @@ def test_brushing_by_mouse(notebook, dark):
     opened.page.get_by_text(share).wait_for()
     opened.ask("histogram.set_trait('mark', 1.05)")
     opened.page.locator(f"{CHART} .mark").wait_for(state="attached")
-    shoot(opened, f"histogram-brushed-{look}")
+    shoot_in_both_themes(opened, "histogram-brushed")
 
     opened.page.keyboard.down("Shift")
     opened.page.mouse.click(*bar(opened, 12))
@@ -105,7 +108,7 @@ def test_brushing_by_keyboard(notebook):
     assert not chart(opened).evaluate("chart => chart === document.activeElement")
 
 
-def test_a_brush_from_code_is_shown_and_gone_on_from(notebook):
+def test_a_brush_and_a_mark_from_code_are_shown(notebook):
     opened = notebook(CELL)
     chart(opened).focus()
     opened.page.keyboard.press("Home")
@@ -113,16 +116,11 @@ def test_a_brush_from_code_is_shown_and_gone_on_from(notebook):
     opened.ask(f"histogram.set_trait('brush', {EDGES}[10:14:3])")
     is_brushed(opened, 10, 12)
     opened.page.keyboard.press("Shift+ArrowRight")
-    is_brushed(opened, 10, 13)
-
-
-@pytest.mark.parametrize(("ratio", "number"), [(1.0, 20), (1e-3, 0), (1e3, 40)])
-def test_the_bar_of_the_mark(notebook, ratio, number):
-    opened = notebook(CELL)
-    chart(opened)
-    opened.ask(f"histogram.set_trait('mark', {ratio})")
+    is_brushed(opened, 10, 13)  # it goes on from there
     mark = opened.page.locator(f"{CHART} .mark")
-    expect(mark).to_have_attribute("data-bar", str(number))
+    for ratio, number in ((1.0, 20), (1e-3, 0), (1e3, 40)):
+        opened.ask(f"histogram.set_trait('mark', {ratio})")
+        expect(mark).to_have_attribute("data-bar", str(number))
     opened.ask("histogram.set_trait('mark', None)")
     mark.wait_for(state="detached")
 

@@ -83,8 +83,9 @@ def walk(page):
 def open_tab(page, name):
     """Open a tab of the app, and wait for the whole of its page, which is made when it is first looked at."""
     page.get_by_role("tab", name=name, exact=True).click()
-    shown = page.locator(".seiswidgets-pages [role=tabpanel]").nth(TABS.index(name)).locator("visible=true")
-    settled(shown.locator("*").count, lambda count: count > 3)
+    shown = page.locator(".seiswidgets-pages > .widget-tab-contents > *").nth(TABS.index(name))
+    shown.locator("*").nth(3).wait_for(state="attached")
+    settled(shown.locator("*").count)
 
 
 def test_no_key_in_any_focusable_part_reaches_the_notebook(notebook):

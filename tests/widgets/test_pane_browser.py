@@ -141,11 +141,16 @@ def test_the_section_is_painted_where_it_belongs_and_sharply(notebook, ratio):
     shoot(opened, f"halves-{ratio}x")
 
 
-@pytest.mark.parametrize("dark", [False, True])
-def test_wheel_drag_and_double_click(notebook, dark):
-    opened = notebook(CELL, dark=dark)
+def shoot_in_both_themes(opened, name):
+    for dark in (True, False):
+        opened.darken(dark)
+        shoot(opened, f"{name}-{'dark' if dark else 'light'}")
+
+
+def test_wheel_drag_and_double_click(notebook):
+    opened = notebook(CELL)
     first = painted(opened)
-    shoot(opened, f"pane-{'dark' if dark else 'light'}")
+    shoot_in_both_themes(opened, "pane")
     box = plot_box(opened)
     at = round(box["x"] + 300), round(box["y"] + 120)
     shift = at[0] - box["x"], at[1] - box["y"]
@@ -164,7 +169,7 @@ def test_wheel_drag_and_double_click(notebook, dark):
     assert (np.abs(np.subtract(place(opened, shift[0] + 60, shift[1] + 30), before)) <= per_pixel).all()
     zoomed = still(opened)
     assert zoomed["sum"] != first["sum"]
-    shoot(opened, f"pane-zoomed-{'dark' if dark else 'light'}")
+    shoot_in_both_themes(opened, "pane-zoomed")
 
     opened.page.mouse.dblclick(*at)
     opened.until("pane.view.is_fitted")
@@ -178,18 +183,17 @@ def drawn(opened, number=0):
     return settled(lambda: [part.evaluate("one => one.outerHTML") for part in parts])
 
 
-@pytest.mark.parametrize("dark", [False, True])
-def test_a_page_that_is_reloaded_shows_the_same(notebook, dark):
-    opened = notebook(PICKED, dark=dark)
+def test_a_page_that_is_reloaded_shows_the_same(notebook):
+    opened = notebook(PICKED)
     plain = painted(opened)
-    shoot(opened, f"picked-{'dark' if dark else 'light'}")
+    shoot_in_both_themes(opened, "picked")
     expect(opened.page.locator(".name")).to_have_text(["F1", "<img src=x onerror=alert(1)>"])
     opened.page.mouse.move(plot_box(opened)["x"] + 500, plot_box(opened)["y"] + 200)
     opened.page.mouse.wheel(0, -300)
     opened.until("not pane.view.is_fitted and seen[-1] == 'rest'")
     before, view = still(opened), opened.ask(STILL)
     assert before["sum"] != plain["sum"]
-    shoot(opened, f"picked-zoomed-{'dark' if dark else 'light'}")
+    shoot(opened, "picked-zoomed")
     lines = drawn(opened)
     opened.command("docmanager:save")
     opened.reload()

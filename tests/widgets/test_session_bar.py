@@ -8,7 +8,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io import files
-from seiswidgets.io.session.autosave import found, numbered
+from seiswidgets.io.session.autosave import find_versions, numbered_files
 from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.files import session_bar
 from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
@@ -52,11 +52,11 @@ def path(tmp_path):
 
 @pytest.fixture
 def full_disk(monkeypatch):
-    """A list: as long as it holds anything, nothing can be written."""
+    """A list of beginnings of file names: files with these cannot be written, or none if one is empty."""
     full, replace = [], os.replace
 
     def replaced(one, other):
-        if full:
+        if os.path.basename(other).startswith(tuple(full)):
             raise OSError(28, "No space left on device")
         replace(one, other)
 
@@ -79,12 +79,12 @@ def draw_fault(app, points=FAULT):
 
 def names(path):
     """Of the picks in the newest version."""
-    versions = found(path)
+    versions = find_versions(path)
     return [pick.name for pick in (*versions[0].session.faults, *versions[0].session.horizons)] if versions else []
 
 
 def choose(app, answer):
-    app.keeper.notice.answers[answer].click()
+    app.session_bar.notice.answers[answer].click()
     assert app.wait(LONG)
 
 
@@ -100,7 +100,7 @@ def test_without_a_path_nothing_is_written(new_app, tmp_path, monkeypatch):
 def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
     app = new_app(session=path)
     assert app.session_path == path
-    assert not numbered(path)
+    assert not numbered_files(path)
     draw_fault(app)
     wait_for(lambda: names(path) == ["F1"])
     app.picker.editor.recolour("fault", "F1", "#123456")
@@ -111,7 +111,7 @@ def test_every_finished_edit_is_saved_a_moment_later(new_app, path):
     app.steps = (sw.Step("unfault"),)
     app.fixed = (100.0, 100.0)
     app.close()
-    session = found(path)[0].session
+    session = find_versions(path)[0].session
     assert [(pick.colour, pick.visible) for pick in session.faults] == [("#123456", False)]
     plan = sw.Plan((sw.Step("unfault"),), sw.Weights(stitch=33.0), spacing=77.0, fixed=(100.0, 100.0))
     assert session.plan == app.plan == plan
@@ -123,9 +123,9 @@ def test_a_point_held_is_work_too(new_app, path):
     app.picker.mode = "block"
     click(app.panes.original, (1000.0, 500.0))
     app.close()
-    assert found(path)[0].session.fixed == pytest.approx((1000.0, 500.0))
+    assert find_versions(path)[0].session.fixed == pytest.approx((1000.0, 500.0))
     again = new_app(session=path)
-    assert ": 0 faults and 0 horizons, a point held (work.00000" in again.keeper.versions.options[0][0]
+    assert ": 0 faults and 0 horizons, a point held (work.00000" in again.session_bar.versions.options[0][0]
     choose(again, "Open")
     assert again.fixed == app.fixed
 
@@ -136,13 +136,13 @@ def test_what_is_dragged_is_saved_when_it_is_let_go(new_app, path):
     pane = app.panes.original
     press(pane, FAULT[0])
     drag_to(pane, (2100.0, 300.0))
-    app.keeper.end()
-    assert found(path)[0].session.faults[0].pieces == (tuple(FAULT),)
+    app.session_bar.end()
+    assert find_versions(path)[0].session.faults[0].pieces == (tuple(FAULT),)
     release(pane, (2100.0, 300.0))
     app.session_path = path
     choose(app, "Start anew")
     app.close()
-    assert found(path)[0].session.faults[0].pieces[0][0] == pytest.approx((2100.0, 300.0))
+    assert find_versions(path)[0].session.faults[0].pieces[0][0] == pytest.approx((2100.0, 300.0))
 
 
 def test_lines_that_cannot_be_used_are_saved_too(new_app, path):
@@ -162,10 +162,10 @@ def test_earlier_work_is_offered_and_opened(new_app, path, section):
     first.close()
     before = {file: file.read_bytes() for file in path.parent.iterdir()}
     again = new_app(session=path)
-    assert "holds earlier work" in again.keeper.notice.text
-    assert ": 1 fault and 0 horizons (work.00000" in again.keeper.versions.options[0][0]
+    assert "holds earlier work" in again.session_bar.notice.text
+    assert ": 1 fault and 0 horizons (work.00000" in again.session_bar.versions.options[0][0]
     draw_fault(again, OTHER)
-    again.keeper.end()
+    again.session_bar.end()
     assert {file: file.read_bytes() for file in path.parent.iterdir()} == before
     again.session_path = path
     choose(again, "Open")
@@ -185,7 +185,7 @@ def test_an_older_version_can_be_chosen(new_app, path):
     first.close()
     assert names(path) == ["F1", "F2"]
     again = new_app(session=path)
-    again.keeper.versions.value = again.keeper.versions.options[1][1]
+    again.session_bar.versions.value = again.session_bar.versions.options[1][1]
     choose(again, "Open")
     assert [pick.name for pick in again.picker.drawing.picks] == ["F1"]
 
@@ -197,47 +197,45 @@ def test_who_starts_anew_keeps_the_earlier_work_aside(new_app, path):
     first.close()
     again = new_app(session=path)
     choose(again, "Start anew")
-    assert "stays in" in again.keeper.notice.text
+    assert "stays in" in again.session_bar.notice.text
     draw_fault(again, OTHER)
     for number in range(12):
         again.fixed = (100.0 + number, 100.0)
-        wait_for(lambda: again.keeper._autosave.pending is None)
-    assert len(numbered(path)) == 10
+        wait_for(lambda: again.session_bar._autosave.pending is None)
+    assert len(numbered_files(path)) == 10
     assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].name == "F1"
 
 
 @pytest.mark.usefixtures("quick")
 def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_disk):
     app = new_app(session=path)
-    full_disk.append(True)
+    full_disk.append("")
     draw_fault(app)
-    wait_for(lambda: app.keeper.news.text)
-    assert "No space left on device" in app.keeper.news.text
-    assert "stays in memory" in app.keeper.news.text
-    assert app.status.text != app.keeper.news.text
+    wait_for(lambda: app.session_bar.news.text)
+    assert "No space left on device" in app.session_bar.news.text
+    assert "stays in memory" in app.session_bar.news.text
+    assert app.status.text != app.session_bar.news.text
     assert [fault.name for fault in app.interpretation.faults] == ["F1"]
     full_disk.clear()
     wait_for(lambda: names(path) == ["F1"])
-    wait_for(lambda: "Saved again" in app.keeper.news.text)
+    wait_for(lambda: "Saved again" in app.session_bar.news.text)
 
 
 @pytest.mark.usefixtures("quick")
-def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk, monkeypatch):
+def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk):
     app = new_app(session=path)
-    full_disk.append(True)
+    full_disk.append(f"{path.stem}.")
     draw_fault(app)
-    wait_for(lambda: app.keeper.news.text)
-    monkeypatch.setattr(app.keeper._autosave, "_written", lambda session: DataError("still full"))
-    full_disk.clear()
+    wait_for(lambda: app.session_bar.news.text)
     app.session_path = path.with_name("other.json")
-    assert not app.keeper.news.text
+    assert not app.session_bar.news.text
     wait_for(lambda: names(path.with_name("other.json")) == ["F1"])
     assert names(path) == []
 
 
 def test_closing_on_a_full_disk_says_so(new_app, path, full_disk):
     app = new_app(session=path)
-    full_disk.append(True)
+    full_disk.append("")
     draw_fault(app)
     with pytest.raises(DataError, match="No space left"):
         app.close()
@@ -249,7 +247,7 @@ def test_a_section_from_nowhere_is_kept_beside_its_session(new_app, path, sectio
     draw_fault(app)
     app.close()
     (beside,) = tmp_path.glob("work.section-*.npz")
-    again = sw.open_session(found(path)[0].path)
+    again = sw.open_session(find_versions(path)[0].path)
     assert again.source == sw.SectionSource("file", str(beside))
     np.testing.assert_array_equal(again.open_section().amplitude, section.amplitude)
 
@@ -276,17 +274,17 @@ def test_the_picks_alone_are_taken_where_the_section_is_gone(new_app, path, sect
     other = sw.Section(section.amplitude * 2, section.dx, section.dz)
     again = new_app(other, session=path, source=None)
     choose(again, "Open")
-    assert "is not there" in again.keeper.notice.text
+    assert "does not exist" in again.session_bar.notice.text
     choose(again, "Picks only")
     assert again.section is other
     assert again.picker.drawing.picks == first.picker.drawing.picks
     small = new_app(sw.Section(section.amplitude[:9, :9], section.dx, section.dz), source=None)
     small.session_path = path
     choose(small, "Picks only")
-    assert "do not lie on the section" in small.keeper.notice.text
-    assert set(small.keeper.notice.answers) == {"Open", "Picks only", "Start anew"}
+    assert "do not lie on the section" in small.session_bar.notice.text
+    assert set(small.session_bar.notice.answers) == {"Open", "Picks only", "Start anew"}
     assert again.session_path is None
-    assert "Another app keeps its work" in again.keeper.notice.text
+    assert "Another app keeps its work" in again.session_bar.notice.text
 
 
 def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, section, tmp_path):
@@ -298,7 +296,7 @@ def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, sect
     first.close()
     again = new_app(sw.synthetic.tilt().section, session=folder / "work.json", source=None)
     choose(again, "Open")
-    assert "outside the session's folder" in again.keeper.notice.text
+    assert "outside the session's folder" in again.session_bar.notice.text
     choose(again, "Back")
     choose(again, "Open")
     choose(again, "Read it")
@@ -307,7 +305,7 @@ def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, sect
 
 def test_another_section_sets_the_work_on_the_first_aside(new_app, path, full_disk):
     app = new_app(session=path)
-    full_disk.append(True)
+    full_disk.append("")
     draw_fault(app)
     other = sw.synthetic.tilt().section
     with pytest.raises(DataError, match="No space left"):
@@ -316,18 +314,18 @@ def test_another_section_sets_the_work_on_the_first_aside(new_app, path, full_di
     full_disk.clear()
     app.section = other
     aside = path.with_name("work.before-000001.json")
-    assert str(aside) in app.keeper.notice.text
+    assert str(aside) in app.session_bar.notice.text
     app.workspace.open(other, app.picker.drawing)
     draw_fault(app, [(500.0, 200.0), (800.0, 700.0)])
     app.close()
     assert sw.open_session(aside).faults[0].pieces == (tuple(FAULT),)
-    np.testing.assert_array_equal(found(path)[0].session.open_section().amplitude, other.amplitude)
+    np.testing.assert_array_equal(find_versions(path)[0].session.open_section().amplitude, other.amplitude)
 
 
 def test_versions_that_cannot_be_opened_are_not_written_over_unasked(new_app, path):
     path.with_name("work.000003.json").write_text('{"format": "seiswidgets session", "version": 99}')
     app = new_app(session=path)
-    assert "none that can be opened" in app.keeper.notice.text
+    assert "none that can be opened" in app.session_bar.notice.text
     draw_fault(app)
     choose(app, "Start anew")
     app.close()
@@ -361,7 +359,7 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     assert f"Every edit is saved in {tmp_path / 'work.json'}" in app.files.session.notice.text
     draw_fault(app)
     app.session_path = tmp_path / "work.json"
-    assert app.keeper.notice.answers == {}  # about its own work it does not ask
+    assert app.session_bar.notice.answers == {}  # about its own work it does not ask
     app.session_path = None
     assert app.session_path is None
     keep_here(app)

@@ -13,8 +13,9 @@ FOCUSED = "(tip) => [...document.querySelectorAll(`button[title='${tip}']`)].ind
 EARLIER, LATER = "Do this step earlier", "Do this step later"
 
 
-def test_steps_by_keyboard_with_the_focus_kept(notebook):
+def test_steps_by_keyboard_in_a_narrow_place(notebook):
     opened = notebook(CELL)
+    names_are_text_and_all_fits(opened)
     press = opened.page.keyboard.press
     opened.page.get_by_title(EARLIER).nth(2).focus()
     press("Enter")
@@ -40,8 +41,7 @@ def test_typing_a_datum(notebook):
     opened.page.get_by_role("alert").wait_for(state="detached")
 
 
-def test_names_are_text_and_all_fits_a_narrow_place(notebook):
-    opened = notebook(CELL)
+def names_are_text_and_all_fits(opened):
     choice = opened.page.locator(".widget-dropdown select").first
     choice.wait_for()
     assert choice.evaluate("(one) => one.selectedOptions[0].textContent").startswith("<img")

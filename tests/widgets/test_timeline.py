@@ -60,8 +60,10 @@ def test_the_slider_follows_time_which_is_kept_as_it_was_set(timeline, told):
     assert [control.value for control in controls(timeline)] == [7, 7]
 
 
-@pytest.mark.parametrize("labels", [["flatten"], ["a", "b", "c"], ["unfault", "unfault"], []])
-@pytest.mark.parametrize("before", [0.0, 0.5, 2.0])
+@pytest.mark.parametrize(
+    ("labels", "before"),
+    [(["flatten"], 2.0), (["a", "b", "c"], 0.5), (["unfault", "unfault"], 2.0), ([], 0.0), ([], 2.0)],
+)
 def test_other_labels_jump_to_the_end_with_one_change_at_most(timeline, told, labels, before):
     timeline.time = before
     told.clear()

@@ -182,7 +182,7 @@ def test_a_pick_is_marked_with_its_worst_finding(case):
 
 
 def message(picker, kind):
-    return picker.list._rows[kind][0]._message
+    return next(iter(picker.list.rows(kind).values())).message
 
 
 @pytest.fixture
@@ -284,6 +284,6 @@ def test_picks_that_are_not_finished_are_not_scolded(app, case):
     above = sw.Fault([(3000.0, 50.0), (3100.0, 300.0)], "F2")
     app.interpretation = sw.Interpretation([*case.interpretation.faults, above], case.interpretation.horizons)
     assert app.wait(LONG)
-    said = (app.status._line.value, *(row._message.value for row in app.picker.list._rows["fault"]))
+    said = (app.status._line.value, *(row.message.value for row in app.picker.list.rows("fault").values()))
     assert "F2" in "".join(said)
     assert not any('role="alert"' in text or "problem" in text for text in said)

@@ -1,54 +1,57 @@
-"""What a restoration has achieved, as JSON for programs and as a page for people."""
+"""Reports of a restoration, as JSON for programs and as a web page for people."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import asdict
 from html import escape
 from math import isfinite
 from os import PathLike
+from typing import Any
 
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.validation import checked_kind
-from seiswidgets.io.files import checked_path, written
+from seiswidgets.io.files import output_path, write_file
+from seiswidgets.signatures import strict_keywords
 
 SUFFIXES = (".json", ".html")
 STYLE = "body { font-family: sans-serif; max-width: 60em; margin: 2em auto } th { padding-right: 1em }"
+SECTION_FIELDS = ("name", "credit", "shape", "extent", "x_unit", "z_unit", "velocity")
 
 
-def save_report(restored: Restoration, path: str | PathLike):
-    """Write the reports of all stages, as JSON (.json) or as a page that needs no network (.html).
+@strict_keywords
+def save_report(restored: Restoration, path: str | PathLike) -> None:
+    """Write the reports of all stages, as JSON (.json) or as a web page that needs no network (.html).
 
     Raises
     ------
     SettingError
-        If the path ends otherwise, or it is no restoration.
+        If the path has another suffix, or ``restored`` is not a Restoration.
     DataError
         If the file cannot be written.
     """
-    path = checked_path(path, SUFFIXES)
+    path = output_path(path, SUFFIXES)
     checked_kind(restored, Restoration, "restored")
     if path.suffix.lower() == ".json":
         text = json.dumps(report_as_dict(restored), indent=2, allow_nan=False, ensure_ascii=False)
     else:
         text = report_as_html(restored)
-    with written(path) as draft:
-        draft.write_text(text, encoding="utf-8")
+    write_file(path, text.encode())
 
 
-def report_as_dict(restored: Restoration) -> dict:
-    """The section and the report of each stage, in dictionaries, lists, numbers and strings alone.
+def report_as_dict(restored: Restoration) -> dict[str, Any]:
+    """The section and the report of each stage, as dictionaries, lists, numbers and strings only.
 
-    Names as those of ``Report``; what is not finite is None.
+    The keys are the names of the fields of ``Report``; numbers that are not finite become None.
     """
-    section = restored.original
-    shown = ("name", "credit", "shape", "extent", "x_unit", "z_unit", "velocity")
-    about = {name: getattr(section, name) for name in shown}
-    return _plain({"section": about, "stages": [asdict(stage.report) for stage in restored.stages]})
+    section = {name: getattr(restored.original, name) for name in SECTION_FIELDS}
+    report: dict[str, Any] = _plain({"section": section, "stages": [asdict(stage.report) for stage in restored.stages]})
+    return report
 
 
-def _plain(value):
-    if isinstance(value, dict):
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
         return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
     if isinstance(value, float):
         return float(value) if isfinite(value) else None
@@ -56,11 +59,11 @@ def _plain(value):
 
 
 def report_as_html(restored: Restoration) -> str:
-    """A page with a table for each stage; names of picks and files are text in it, whatever they hold."""
+    """A web page with a table for each stage; names of picks and files are escaped."""
     section = restored.original
     title = escape(section.name or "section")
     reports = (stage.report._repr_html_() for stage in restored.stages)
-    tables = [f"<h2>Stage {number}</h2>\n{report}" for number, report in enumerate(reports, 1)]
+    tables = [f"<h2>Stage {count}</h2>\n{report}" for count, report in enumerate(reports, 1)]
     return "\n".join(
         [
             '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">',
@@ -68,11 +71,11 @@ def report_as_html(restored: Restoration) -> str:
             f"<style>{STYLE}</style>",
             f"<h1>Restoration of {title}</h1>\n<p>{escape(repr(section))}</p>",
             *(tables or ["<p>Nothing has been restored yet.</p>"]),
-            "<p>Restored by seiswidgets: an interpretation, not a measurement.</p>\n</html>\n",
+            "<p>Restored with seiswidgets: an interpretation, not a measurement.</p>\n</html>\n",
         ]
     )
 
 
-def stages_in_words(restored: Restoration) -> str:
-    """What was done, in one line."""
+def stages_as_line(restored: Restoration) -> str:
+    """All stages in one line, each with its picks."""
     return "; ".join(f"{stage.kind} {', '.join(stage.report.picks)}" for stage in restored.stages)

@@ -1,78 +1,77 @@
-"""Sections out: SEG-Y and .npz."""
+"""Export of sections to SEG-Y and .npz."""
 
-from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
+from typing import Unpack
 
 import numpy as np
 
-from seiswidgets.errors import SettingError
+from seiswidgets.errors import Keyword, SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import finite_number
-from seiswidgets.io.files import checked_path, existing_file, written
-from seiswidgets.io.options import OF_SEGY, OpenOptions
+from seiswidgets.io.files import atomic_write, existing_file, output_path
+from seiswidgets.io.options import SEGY_OPTIONS, LineKeywords, OpenOptions
 from seiswidgets.io.rasters.arrays import STORED
 from seiswidgets.io.segy.writing import write_segy
+from seiswidgets.signatures import strict_keywords
 
 SUFFIXES = (".sgy", ".segy", ".npz")
 
 
+@strict_keywords
 def save_section(
     section: Section | Restoration,
     path: str | PathLike,
     *,
     like: str | PathLike | None = None,
-    inline: int | None = None,
-    crossline: int | None = None,
-    traces: slice | range | None = None,
-    header_bytes: Mapping[str, int] | None = None,
     x0: float = 0.0,
-):
+    **line: Unpack[LineKeywords],
+) -> None:
     """Write a section, or the restored section of a restoration, as SEG-Y (.sgy, .segy) or NumPy's .npz.
 
-    An .npz file keeps all of a section, and ``open_section`` needs no more than its path. SEG-Y is written in
-    big-endian IEEE floats of 4 bytes, with 0 where there are no data (a trace without any is marked dead), and its
-    textual header says that it was restored and is no measurement. Opened again, its line starts at x = 0: give x0=.
+    An .npz file keeps everything, and ``open_section`` needs only its path. SEG-Y is written as big-endian 4-byte IEEE
+    floats, with 0 where there are no data (a trace without any is marked as dead), and its textual header says that
+    the section was restored, not measured. When it is opened again, its line starts at x = 0 unless x0= is given.
 
     Parameters
     ----------
     section : Section or Restoration
     path : str or Path
-        A file that is there is replaced, but only when the new one is whole.
+        An existing file is replaced once the new one is complete.
     like : str or Path, optional
-        For SEG-Y: the file that the original was opened from, whose headers are carried over. Traces beyond its ends
-        continue the numbers and positions of its line.
+        For SEG-Y: the file that the original was opened from, whose headers are copied. Traces beyond its ends continue
+        the numbers and positions of its line.
     inline, crossline, traces, header_bytes, x0
-        Which line of ``like`` it is, as they were given to ``open_section``.
+        Line of ``like``, as given to ``open_section``.
 
     Raises
     ------
     SettingError
-        If the path ends otherwise, SEG-Y cannot hold the section, or a choice has no meaning.
+        If the path has another suffix, SEG-Y cannot hold the section, or an option has no meaning.
     DataError
         If the file cannot be written, or ``like`` cannot be read.
     """
-    path = checked_path(path, SUFFIXES)
-    line = OpenOptions(
-        inline=inline, crossline=crossline, traces=traces, header_bytes=header_bytes, x0=finite_number("x0", x0)
-    )
-    done = section if isinstance(section, Restoration) else None
-    section = section.section if done else section
+    path = output_path(path, SUFFIXES)
+    options = OpenOptions(x0=finite_number("x0", x0), **line)
+    restored, section = (section, section.section) if isinstance(section, Restoration) else (None, section)
     if not isinstance(section, Section):
         raise SettingError(f"save_section takes a Section or a Restoration, but got a {type(section).__name__}")
     if path.suffix.lower() == ".npz":
-        if like is not None or line.given(OF_SEGY):
-            raise SettingError(f"{path} becomes an .npz file, which has no headers; leave like= and its line out")
+        if like is not None or options.given(SEGY_OPTIONS):
+            raise SettingError(
+                f"{path} becomes an .npz file, which has no headers; leave ", Keyword("like"), " and its line out"
+            )
         write_npz(section, path)
-    elif like is None and line.given(OF_SEGY):
-        raise SettingError(f"{', '.join(line.given(OF_SEGY))}= is of the line that like= holds; give that file too")
-    else:
-        write_segy(section, path, done, None if like is None else existing_file(like), line)
+        return
+    for name in options.given(SEGY_OPTIONS):
+        if like is None:
+            raise SettingError(Keyword(name), " selects a line of the file ", Keyword("like"), "; give that file too")
+    write_segy(section, path, restored, None if like is None else existing_file(like), options)
 
 
-def write_npz(section: Section, path: Path):
-    """Write all of a section as arrays of their names."""
+def write_npz(section: Section, path: Path) -> None:
+    """Write all of a section as arrays of an .npz file, named like its fields."""
     fields = {name: getattr(section, name) for name in STORED if getattr(section, name) is not None}
-    with written(path) as draft, draft.open("wb") as file:
+    with atomic_write(path) as draft, draft.open("wb") as file:
         np.savez_compressed(file, amplitude=section.amplitude, **fields)

@@ -1,42 +1,43 @@
 """Lines in the CPS-3 format, as Petrel and others export them."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from seiswidgets.errors import DataError
 from seiswidgets.io.document import read_text
-from seiswidgets.io.picks.lines import FileLines, depth, number
-from seiswidgets.io.picks.map_points import ExportOptions, Node, fault_lines, horizon_lines, rows
+from seiswidgets.io.picks.lines import FileLines, parse_depth, parse_number
+from seiswidgets.io.picks.map_points import ExportOptions, MapPoint, data_rows, fault_lines, horizon_lines
 
-HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written, nothing that places a pick
+HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written; nothing about positions
 
 
-def read_horizons(path: Path, choices: ExportOptions) -> FileLines:
-    """A horizon as "CPS-3 lines": a row ``->`` before each piece, then a row X Y Z a point.
+def read_horizons(path: Path, options: ExportOptions) -> FileLines:
+    """Read a horizon from "CPS-3 lines": a row ``->`` before each piece, then one row X Y Z per point.
 
-    Rows of a header begin with FF or FS. The horizon is called as the file; what stands behind the arrow is not used.
+    Rows that begin with FF or FS are headers. The horizon takes the file's name; text after the arrow is ignored.
     """
-    return FileLines(horizon_lines(path, _nodes(path), choices))
+    return FileLines(horizon_lines(path, _map_points(path), options))
 
 
-def read_faults(path: Path, choices: ExportOptions) -> FileLines:
-    """Faults as "CPS-3 lines": as for horizons, each piece a fault, called as the file, with a number if several."""
-    return FileLines(fault_lines(path, _nodes(path), choices))
+def read_faults(path: Path, options: ExportOptions) -> FileLines:
+    """Read faults from "CPS-3 lines": each piece is a fault with the file's name, numbered if there are several."""
+    return FileLines(fault_lines(path, _map_points(path), options))
 
 
-def _nodes(path):
-    block = 0
-    for place, row in rows(read_text(path)):
+def _map_points(path: Path) -> Iterator[MapPoint]:
+    piece = 0
+    for location, row in data_rows(read_text(path)):
         if row.lstrip().startswith("->"):
-            block += 1
+            piece += 1
         elif not row.lstrip().startswith(HEADER):
-            yield _node(path, place, row, block)
+            yield _map_point(path, location, row, piece)
 
 
-def _node(path, place, row, block):
+def _map_point(path: Path, location: str, row: str, piece: int) -> MapPoint:
     values = row.split()
     if len(values) != 3:
-        raise DataError(f"{path}: {place} must be X, Y and Z, but has {len(values)} values; export it again with Z")
-    x, y = (number(path, place, what, text) for what, text in zip("XY", values, strict=False))
-    return Node({"": np.nan}, path.stem, str(block), x, y, depth(path, place, values[2]), place)
+        raise DataError(f"{path}: {location} must be X, Y and Z, but has {len(values)} values; export it again with Z")
+    x, y = (parse_number(path, location, column, text) for column, text in zip("XY", values, strict=False))
+    return MapPoint({"": np.nan}, path.stem, str(piece), x, y, parse_depth(path, location, values[2]), location)

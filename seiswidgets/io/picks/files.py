@@ -1,18 +1,37 @@
-"""The two doors: picks from a file, and picks into one."""
+"""Public functions that read picks from a file and write them to one."""
 
 import os
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import NamedTuple
 
-from seiswidgets.errors import DataError, SettingError
+from seiswidgets.errors import DataError, Keyword, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import METRES, Section
 from seiswidgets.geology.validation import checked_kind
-from seiswidgets.io.document import LARGEST_OURS, check_size, shortened
-from seiswidgets.io.files import user_path, write_whole
+from seiswidgets.io.document import check_file_size, shortened
+from seiswidgets.io.files import user_path, write_file
 from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
-from seiswidgets.io.picks.lines import FileLines, PickLine, in_section_units, interpretation, without_single_points
+from seiswidgets.io.picks.lines import (
+    FileLines,
+    PickLine,
+    build_interpretation,
+    in_section_units,
+    without_single_points,
+)
 from seiswidgets.io.picks.map_points import Along, ExportOptions
+from seiswidgets.signatures import strict_keywords
 
-OURS = {"geojson": geojson, "csv": table}
+
+class PickFormat(NamedTuple):
+    """Functions that read and write one of the formats of seiswidgets."""
+
+    read: Callable[[Path], FileLines]
+    as_text: Callable[[Interpretation, str, str], str]
+
+
+OWN_FORMATS = {"geojson": PickFormat(geojson.read, geojson.as_text), "csv": PickFormat(table.read, table.as_text)}
 EXPORTS = {
     "opendtect-horizons": opendtect.read_horizons,
     "opendtect-faults": opendtect.read_faults,
@@ -24,6 +43,7 @@ EXPORTS = {
 SUFFIXES = {".geojson": "geojson", ".json": "geojson", ".csv": "csv"}
 
 
+@strict_keywords
 def read_picks(
     path: str | os.PathLike,
     section: Section,
@@ -35,67 +55,64 @@ def read_picks(
     along: Along | None = None,
     line: str | None = None,
 ) -> Interpretation:
-    """Faults and horizons from a file, in the units of a section.
+    """Read faults and horizons from a file, in the units of a section.
 
     Parameters
     ----------
     path : path
     section : Section
-        What they were picked on.
+        The section that they were picked on.
     format : str, optional
-        "geojson" or "csv", told by the suffix if left out; or an export of another program: "opendtect-horizons",
+        "geojson" or "csv", recognised by the suffix if left out; or an export of another program: "opendtect-horizons",
         "opendtect-faults", "charisma-horizons", "charisma-faults" (both of Petrel too), "cps3-horizons" or
         "cps3-faults". The docs list the columns of each.
     x_unit, z_unit : str, optional
-        The file's units, as for a Section; needed where it does not state them.
+        Units of the file, as for a Section; needed if it does not state them.
     z_up : bool
-        Whether the file's z grows upwards, as elevations from Petrel do; their sign is turned.
+        Whether the file's z grows upwards, like elevations from Petrel; its sign is then changed.
     along : optional
-        For exports: where on the section a place (X, Y) on the map is. "x" or "y" takes that column; a list of the
-        line's own map coordinates [(X, Y), ...] from the section's first trace on takes the distance along it; a
-        function of three arrays, X, Y and the trace number, returns x.
+        For exports: how positions (X, Y) on the map become positions along the section. "x" or "y" takes that column;
+        a list of the line's own map coordinates [(X, Y), ...], from the section's first trace on, takes the distance
+        along it; a function of three arrays, X, Y and the trace number, returns x.
     line : str, optional
         For exports of several seismic lines: the one to take. For Charisma, "inline 362" or "xline 800".
 
     Raises
     ------
     DataError
-        If the file cannot be read as picks; the message names the file, the place in it, and what to do.
+        If the file cannot be read as picks; the message names the file, the location in it, and what to do.
     SettingError
-        If the format is not known, a choice has no meaning for it, or an argument is of another kind.
+        If the format is unknown, an option has no meaning for it, or an argument has the wrong type.
 
     Warns
     -----
     UserWarning
-        If single points of an export were left out, because they make no line.
+        If single points of an export were left out, because they cannot form a line.
     """
     path = user_path(path)
     checked_kind(section, Section, "section")
-    if z_up not in (True, False):  # "no" would turn the picks over
-        raise SettingError(f"z_up must be True or False, but is {z_up!r}")
-    chosen = _format(path, format, (*OURS, *EXPORTS))
-    if chosen in OURS:
-        if along is not None or line is not None:
-            raise SettingError(
-                f"along= and line= have no meaning for {chosen}, which is of one section; leave them out"
-            )
-        found = OURS[chosen].read(path)
-        lines = found.lines
+    if z_up not in (True, False):  # a truthy "no" would turn the picks over
+        raise SettingError(Keyword("z_up"), f" must be True or False, but is {z_up!r}")
+    format_name = _checked_format(path, format, (*OWN_FORMATS, *EXPORTS))
+    if format_name in OWN_FORMATS:
+        _refuse_export_options(format_name, along, line)
+        file_lines = OWN_FORMATS[format_name].read(path)
     else:
-        here = METRES[section.x_unit]
-        start = section.x0 * here / METRES.get(x_unit, here)  # in the file's unit, as all that it gives
-        found = EXPORTS[chosen](path, ExportOptions(line, along, start))
-        lines = without_single_points(path, found.lines)
+        section_metres = METRES[section.x_unit]
+        x0 = section.x0 * section_metres / METRES.get(x_unit or section.x_unit, section_metres)  # in the file's unit
+        file_lines = EXPORTS[format_name](path, ExportOptions(line, along, x0))
+        file_lines = replace(file_lines, lines=without_single_points(path, file_lines.lines))
         if not z_up:
-            _check_sign(path, lines, section)
-    found = FileLines(
-        _turned(lines) if z_up else lines,
-        _unit(path, "x_unit", found.x_unit, x_unit),
-        _unit(path, "z_unit", found.z_unit, z_unit),
+            _check_sign(path, file_lines.lines, section)
+    file_lines = FileLines(
+        tuple(_flipped(line) for line in file_lines.lines) if z_up else file_lines.lines,
+        _agreed_unit(path, "x_unit", file_lines.x_unit, x_unit),
+        _agreed_unit(path, "z_unit", file_lines.z_unit, z_unit),
     )
-    return interpretation(path, in_section_units(path, found, section) if found.lines else ())
+    return build_interpretation(path, in_section_units(path, file_lines, section) if file_lines.lines else ())
 
 
+@strict_keywords
 def write_picks(
     interpretation: Interpretation,
     path: str | os.PathLike,
@@ -103,63 +120,77 @@ def write_picks(
     *,
     format: str | None = None,  # noqa: A002
 ) -> None:
-    """Write faults and horizons to a file, which states the units; `read_picks` gives back the very same numbers.
+    """Write faults and horizons to a file that states their units; `read_picks` returns exactly the same numbers.
 
     Parameters
     ----------
     interpretation : Interpretation
     path : path
-        An older file of that name is replaced once the new one is complete.
+        An existing file is replaced once the new one is complete.
     section : Section
-        Gives the units.
+        The section that they were picked on, which has the units.
     format : {"geojson", "csv"}, optional
-        Told by the suffix if left out.
+        Chosen by the suffix if left out.
 
     Raises
     ------
     DataError
         If the file cannot be written, or is too large to be read again.
     SettingError
-        If the format is not one of these, or an argument is of another kind.
+        If the format is not one of these, or an argument has the wrong type.
     """
     path = user_path(path)
     checked_kind(interpretation, Interpretation, "interpretation")
     checked_kind(section, Section, "section")
-    module = OURS[_format(path, format, tuple(OURS))]
-    text = module.text(interpretation, section.x_unit, section.z_unit)
+    pick_format = OWN_FORMATS[_checked_format(path, format, tuple(OWN_FORMATS))]
+    text = pick_format.as_text(interpretation, section.x_unit, section.z_unit)
     try:
         content = text.encode()
     except UnicodeEncodeError as error:
-        raise DataError(f"{path}: a name holds half a character, {error.object[error.start]!r}; rename it") from None
-    check_size(path, content, LARGEST_OURS)
-    write_whole(path, content)
+        raise DataError(
+            f"{path}: a name contains an unpaired surrogate, {error.object[error.start]!r}; rename that pick"
+        ) from None
+    check_file_size(path, content)
+    write_file(path, content)
 
 
-def _format(path, asked, known):
-    chosen = SUFFIXES.get(path.suffix.lower()) if asked is None else asked
-    if chosen is None:
-        raise SettingError(f"{path}: its format cannot be told by its suffix; give format=, one of {', '.join(known)}")
-    if chosen not in known:
-        raise SettingError(f"format must be one of {', '.join(known)}, but is {chosen!r}")
-    return chosen
+def _checked_format(path: Path, given: str | None, known: tuple[str, ...]) -> str:
+    name = SUFFIXES.get(path.suffix.lower()) if given is None else given
+    if name is None:
+        raise SettingError(
+            f"{path}: its suffix does not tell its format; give ", Keyword("format"), f", one of {', '.join(known)}"
+        )
+    if name not in known:
+        raise SettingError(Keyword("format"), f" must be one of {', '.join(known)}, but is {name!r}")
+    return name
 
 
-def _unit(path, axis, stated, given):
-    """The file's unit, stated or given; both must not differ."""
+def _refuse_export_options(format_name: str, along: Along | None, line: str | None) -> None:
+    for keyword, value in (("along", along), ("line", line)):
+        if value is not None:
+            raise SettingError(
+                Keyword(keyword), f" has no meaning for {format_name}, which is of one section; leave it out"
+            )
+
+
+def _agreed_unit(path: Path, axis: str, stated: str | None, given: str | None) -> str | None:
+    """The unit that the file states or the user gave; they must not differ."""
     if stated is not None and given is not None and stated != given:
         raise DataError(
-            f"{path} states {axis} {shortened(repr(stated))}, but {axis}={given!r} is given; leave that out, or "
-            "correct the file"
+            f"{path} states {axis} {shortened(repr(stated))}, but ",
+            Keyword(axis, given),
+            " is given; leave that out, or correct the file",
         )
     return given if stated is None else stated
 
 
-def _turned(lines):
-    """The lines with z down."""
-    return tuple(PickLine(line.kind, line.name, tuple((x, -z) for x, z in line.points), line.place) for line in lines)
+def _flipped(line: PickLine) -> PickLine:
+    """The line with the sign of z changed."""
+    return replace(line, points=tuple((x, -z) for x, z in line.points))
 
 
-def _check_sign(path, lines, section):
-    """Refuse an export whose z must grow upwards, though nobody said so."""
-    if lines and section.z0 >= 0 and all(z < 0 for line in lines for _, z in line.points):
-        raise DataError(f"{path}: all z are negative, so they seem to grow upwards; if so, say it by z_up=True")
+def _check_sign(path: Path, lines: Iterable[PickLine], section: Section) -> None:
+    """Raise DataError for an export whose z seems to grow upwards."""
+    depths = [z for line in lines for _, z in line.points]
+    if depths and section.z0 >= 0 and max(depths) < 0:
+        raise DataError(f"{path}: all z are negative, so z seems to grow upwards; if so, give ", Keyword("z_up", True))

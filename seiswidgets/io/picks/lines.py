@@ -1,127 +1,142 @@
-"""Lines as a file of picks has them, and the interpretation that they make."""
+"""Lines as read from a pick file, and the interpretation made from them."""
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import nan
 from pathlib import Path
 
-from seiswidgets.errors import DataError, PickError
+import numpy as np
+
+from seiswidgets.errors import DataError, Keyword, PickError, Text
 from seiswidgets.geology.picks import FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.section import METRES, SECONDS, Section
-from seiswidgets.io.document import LARGEST_NUMBER, shortened
+from seiswidgets.io.document import LARGEST_NUMBER, Points, shortened
 
-Points = tuple[tuple[float, float], ...]
-UNDEFINED = 9_999_900  # and more: other programs write 9999900, 9999999 or 1e30 where there is no pick
+UNDEFINED = 9_999_900  # and above: other programs write 9999900, 9999999 or 1e30 where there is no pick
 
 
 @dataclass(frozen=True)
 class PickLine:
-    """A fault, or a piece of a horizon, as points (x, z); and where in the file it is."""
+    """A fault, or a piece of a horizon, as points (x, z), with its location in the file."""
 
     kind: str
     name: str
     points: Points
-    place: str
+    location: str
 
 
 @dataclass(frozen=True)
 class FileLines:
-    """The lines of a file, and their units where it states them."""
+    """Lines of a file, and their units where it states them."""
 
     lines: tuple[PickLine, ...]
     x_unit: str | None = None
     z_unit: str | None = None
 
 
-def interpretation(path: Path, lines: tuple[PickLine, ...]) -> Interpretation:
-    """The picks that lines make: one of each name, horizons with all of their pieces.
+def build_interpretation(path: Path, lines: tuple[PickLine, ...]) -> Interpretation:
+    """Join lines of the same name into picks: a fault is one line, a horizon has all of its pieces.
 
     Raises
     ------
     DataError
-        If a line cannot be a pick; it names the file, the place and the pick.
+        If a line cannot be a pick; it names the file, the location and the pick.
     """
     named: dict[tuple[str, str], list[PickLine]] = {}
     for line in lines:
         named.setdefault((line.kind, line.name), []).append(line)
-    made = {FAULT: [], HORIZON: []}
-    for (kind, name), pieces in named.items():
-        made[kind].append(_pick(path, kind, name, pieces))
-    return Interpretation(tuple(made[FAULT]), tuple(made[HORIZON]))
+    faults = [_fault(path, name, pieces) for (kind, name), pieces in named.items() if kind == FAULT]
+    horizons = [_horizon(path, name, pieces) for (kind, name), pieces in named.items() if kind == HORIZON]
+    return Interpretation(tuple(faults), tuple(horizons))
 
 
-def _pick(path, kind, name, pieces):
-    if kind == FAULT and len(pieces) > 1:
+def _fault(path: Path, name: str, pieces: list[PickLine]) -> Fault:
+    if len(pieces) > 1:
         raise DataError(
-            f"{path}: {pieces[1].place} is a second line of fault {shortened(repr(name))}, after {pieces[0].place}; a "
-            "fault is one line, so give each a name of its own"
+            f"{path}: {pieces[1].location} is a second line of fault {shortened(repr(name))}, after "
+            f"{pieces[0].location}; a fault is one line, so give each line a name of its own",
+            pick=name,
         )
-    points = [piece.points for piece in pieces]
     try:
-        return Fault(points[0], name) if kind == FAULT else Horizon(*points, name=name)
+        return Fault(np.array(pieces[0].points), name)
     except PickError as error:
-        raise DataError(f"{path}: {pieces[0].place}: {shortened(str(error))}") from error
+        raise _located_error(path, pieces[0], error) from error
 
 
-def in_section_units(path: Path, found: FileLines, section: Section) -> tuple[PickLine, ...]:
-    """The lines in the units of a section; untouched where these are the file's own."""
-    scale = tuple(
-        _factor(path, axis, getattr(found, axis), getattr(section, axis), section) for axis in ("x_unit", "z_unit")
-    )
-    return found.lines if scale == (1, 1) else tuple(_scaled(line, scale) for line in found.lines)
+def _horizon(path: Path, name: str, pieces: list[PickLine]) -> Horizon:
+    try:
+        return Horizon(*(np.array(piece.points) for piece in pieces), name=name)
+    except PickError as error:
+        raise _located_error(path, pieces[0], error) from error
 
 
-def _scaled(line, scale):
-    return PickLine(line.kind, line.name, tuple((x * scale[0], z * scale[1]) for x, z in line.points), line.place)
+def _located_error(path: Path, line: PickLine, error: PickError) -> DataError:
+    message = shortened(error.text)
+    text = error.text if message == error.text else Text(message)
+    return DataError(f"{path}: {line.location}: ", text, pick=line.name, where=error.where)
 
 
-def _factor(path, axis, unit, wanted, section):
-    """How many of the section's units one of the file's is."""
+def in_section_units(path: Path, file_lines: FileLines, section: Section) -> tuple[PickLine, ...]:
+    """Convert lines to the units of a section; they are returned unchanged if the units agree."""
+    x_factor = _factor(path, "x_unit", file_lines.x_unit, section.x_unit)
+    z_factor = _factor(path, "z_unit", file_lines.z_unit, section.z_unit)
+    if x_factor == z_factor == 1:
+        return file_lines.lines
+    return tuple(_scaled(line, x_factor, z_factor) for line in file_lines.lines)
+
+
+def _scaled(line: PickLine, x_factor: float, z_factor: float) -> PickLine:
+    return replace(line, points=tuple((x * x_factor, z * z_factor) for x, z in line.points))
+
+
+def _factor(path: Path, axis: str, unit: str | None, section_unit: str) -> float:
+    """The file's unit as a multiple of the section's."""
     known = METRES if axis == "x_unit" else METRES | SECONDS
     if unit is None:
-        raise DataError(f"{path} does not say its {axis}; give {axis}=, one of {', '.join(known)}")
+        raise DataError(f"{path} does not state its {axis}; give ", Keyword(axis), f", one of {', '.join(known)}")
     if unit not in tuple(known):
         raise DataError(f"{path}: {axis} must be one of {', '.join(known)}, but is {shortened(repr(unit))}")
-    if unit == wanted:
+    if unit == section_unit:
         return 1
     family = METRES if unit in METRES else SECONDS
-    if wanted not in family:
-        kinds = ("depth", "two-way time") if family is METRES else ("two-way time", "depth")
+    if section_unit not in family:
+        file_kind, section_kind = ("depth", "two-way time") if family is METRES else ("two-way time", "depth")
         raise DataError(
-            f"{path} is in {kinds[0]} ({unit}) and the section in {kinds[1]} ({wanted}); export the picks in "
-            f"{kinds[1]}, or open a section in {kinds[0]}"
+            f"{path} is in {file_kind} ({unit}) and the section in {section_kind} ({section_unit}); export the picks "
+            f"in {section_kind}, or open a section in {file_kind}"
         )
-    return family[unit] / family[wanted]
+    return family[unit] / family[section_unit]
 
 
 def without_single_points(path: Path, lines: tuple[PickLine, ...]) -> tuple[PickLine, ...]:
-    """The lines of two points or more; a warning tells of the others, which exports have beside faults."""
-    alone = [line.name for line in lines if len(line.points) < 2]
-    if alone:
-        names = ", ".join(repr(name) for name in dict.fromkeys(alone))
-        message = f"{path}: left out {len(alone)} points that stand alone and make no line, of {shortened(names)}"
-        warnings.warn(message, stacklevel=3)  # where read_picks was called
+    """Leave out lines of a single point, which exports contain beside faults, and warn about them."""
+    single = [line.name for line in lines if len(line.points) < 2]
+    if single:
+        names = ", ".join(repr(name) for name in dict.fromkeys(single))
+        points = f"{len(single)} single point{'s' if len(single) > 1 else ''}"
+        message = f"{path}: left out {points} that cannot form a line, of {shortened(names)}"
+        warnings.warn(message, stacklevel=4)  # points to the call of read_picks
     return tuple(line for line in lines if len(line.points) > 1)
 
 
-def number(path: Path, place: str, what: str, text: str) -> float:
-    """A number that can be computed with, or a DataError that names file, place and column."""
+def parse_number(path: Path, location: str, column: str, text: str) -> float:
+    """Read a number; DataError if it is not finite or too large to compute with."""
     value = _float(text)
-    if not abs(value) <= LARGEST_NUMBER:  # not: so that NaN is refused
+    if not abs(value) <= LARGEST_NUMBER:  # not >: NaN must be refused too
         raise DataError(
-            f"{path}: {place}: {what} must be a number within ±{LARGEST_NUMBER:g}, but is {text[:60]!r}; correct or "
-            "delete that row"
+            f"{path}: {location}: {column} must be a number within ±{LARGEST_NUMBER:g}, but is {text[:60]!r}; correct "
+            "or delete that row"
         )
     return value
 
 
-def depth(path: Path, place: str, text: str) -> float:
-    """A depth or time as `number` has it, or NaN for another program's way to say that there is no pick."""
+def parse_depth(path: Path, location: str, text: str) -> float:
+    """Read a depth or time; NaN where another program marks it as undefined."""
     undefined = text == "-" or abs(_float(text)) >= UNDEFINED
-    return nan if undefined else number(path, place, "Z", text)
+    return nan if undefined else parse_number(path, location, "Z", text)
 
 
-def _float(text):
+def _float(text: str) -> float:
     try:
         return float(text)
     except ValueError:

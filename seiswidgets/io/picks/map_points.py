@@ -1,185 +1,208 @@
-"""What exports of other programs have in common: points on a map, of one seismic line or of many."""
+"""Common parts of other programs' exports: points on a map, from one seismic line or from several."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from reprlib import repr as brief
+from typing import TypeVar
 
 import numpy as np
 import shapely
 
-from seiswidgets.errors import DataError
-from seiswidgets.io.document import MOST_POINTS, lines, shortened
-from seiswidgets.io.picks.lines import FAULT, HORIZON, PickLine
+from seiswidgets.errors import DataError, Keyword
+from seiswidgets.geology.picks import FAULT, HORIZON
+from seiswidgets.io.document import MOST_POINTS, shortened, text_lines
+from seiswidgets.io.picks.lines import PickLine
 
-BESIDE = 0.01  # of the line's length: how far from it a pick may lie
-SHOWN = 6  # seismic lines, where a message names those that there are
+MOST_BESIDE = 0.01  # of the line's length: distance of a pick from it
+MOST_LISTED = 6  # seismic lines that a message lists
 
-Along = str | Callable | np.ndarray | list
+MapFunction = Callable[[np.ndarray, np.ndarray, np.ndarray], object]
+Along = str | MapFunction | np.ndarray | Sequence[tuple[float, float]]
+Key = TypeVar("Key", bound=Hashable)
+
+LINE, ALONG = Keyword("line"), Keyword("along")  # as errors name them
 
 
 @dataclass(frozen=True, slots=True)
-class Node:
-    """A point of an export.
+class MapPoint:
+    """A point in an export.
 
     Attributes
     ----------
-    lines : dict
-        The seismic lines that it lies on, and its trace number on each.
+    traces : dict
+        Trace number on each of the seismic lines that the point lies on, by the line's name.
     name, part : str
-        The pick, and its stick or piece where the export says so.
+        The pick, and its stick or piece where the export has them.
     x, y, z : float
-        Place on the map, and depth or time: NaN where the export says that there is no pick.
-    place : str
-        In the file.
+        Position on the map, and depth or time: NaN where the export marks it as undefined.
+    location : str
+        Location in the file.
     """
 
-    lines: dict[str, float]
+    traces: dict[str, float]
     name: str
     part: str
     x: float
     y: float
     z: float
-    place: str
+    location: str
 
 
 @dataclass(frozen=True)
 class ExportOptions:
-    """What exports do not say of themselves: which seismic line, and where on the section a place on the map is."""
+    """Information missing in exports: the seismic line, and how map positions become positions along the section."""
 
     line: str | None
     along: Along | None
     x0: float
 
 
-def rows(text: str) -> Iterator[tuple[str, str]]:
-    """Place and content of the rows that are neither blank nor a comment."""
-    for count, row in enumerate(lines(text), 1):
+def data_rows(text: str) -> Iterator[tuple[str, str]]:
+    """Location and content of the rows that are neither blank nor a comment."""
+    for count, row in enumerate(text_lines(text), 1):
         if row.strip() and not row.lstrip().startswith(("#", "!")):
             yield f"row {count}", row
 
 
-def fault_lines(path: Path, nodes: Iterable[Node], choices: ExportOptions) -> tuple[PickLine, ...]:
-    """A fault a stick, called as it is, with its stick's number where its fault has several on the line.
+def fault_lines(path: Path, points: Iterable[MapPoint], options: ExportOptions) -> tuple[PickLine, ...]:
+    """One fault per stick, named like its fault, with the stick's number if that has several on the line.
 
     Points without a depth are left out.
     """
-    seismic, nodes = _on_one_line(path, nodes, choices.line)
-    sticks = _grouped((node for node in nodes if not np.isnan(node.z)), lambda node: (node.name, node.part))
-    several = Counter(name for name, _ in sticks)
+    seismic_line, kept = _on_one_line(path, points, options.line)
+    sticks = _grouped(((point.name, point.part), point) for point in kept if not np.isnan(point.z))
+    stick_counts = Counter(name for name, _ in sticks)
     return tuple(
-        _line(path, FAULT, f"{name} {part}" if several[name] > 1 else name, stick, seismic, choices)
+        _pick_line(path, FAULT, f"{name} {part}" if stick_counts[name] > 1 else name, stick, seismic_line, options)
         for (name, part), stick in sticks.items()
     )
 
 
-def horizon_lines(path: Path, nodes: Iterable[Node], choices: ExportOptions) -> tuple[PickLine, ...]:
-    """The pieces of each horizon: one ends where a trace has no pick, or is not the next one."""
-    seismic, nodes = _on_one_line(path, nodes, choices.line)
+def horizon_lines(path: Path, points: Iterable[MapPoint], options: ExportOptions) -> tuple[PickLine, ...]:
+    """The pieces of each horizon, which end where a trace has no pick or is not the next one."""
+    seismic_line, kept = _on_one_line(path, points, options.line)
     return tuple(
-        _line(path, HORIZON, name, piece, seismic, choices)
-        for name, horizon in _grouped(nodes, lambda node: node.name).items()
-        for piece in _pieces(horizon, seismic)
+        _pick_line(path, HORIZON, name, piece, seismic_line, options)
+        for name, horizon in _grouped((point.name, point) for point in kept).items()
+        for piece in _pieces(horizon, seismic_line)
     )
 
 
-def _on_one_line(path, nodes, line):
-    """The seismic line that is asked for, or else the only one; and its nodes, the others not kept in memory."""
-    known, possible, kept = {}, None, []
-    for node in nodes:
-        known.update(dict.fromkeys(node.lines) if len(known) < SHOWN else {})
-        possible = list(node.lines) if possible is None else [name for name in possible if name in node.lines]
-        if line is None and not possible:
-            raise DataError(f"{path} holds picks on several seismic lines: {_listed(known)}; choose one by line=")
-        if line is None or line in node.lines:
-            kept.append(node)
+def _on_one_line(path: Path, points: Iterable[MapPoint], line: str | None) -> tuple[str, list[MapPoint]]:
+    """The seismic line that was chosen, or the only one, and its points; others are not kept in memory."""
+    known: dict[str, None] = {}
+    shared: list[str] | None = None
+    kept: list[MapPoint] = []
+    for point in points:
+        known.update(dict.fromkeys(point.traces) if len(known) < MOST_LISTED else {})
+        shared = list(point.traces) if shared is None else [name for name in shared if name in point.traces]
+        if line is None and not shared:
+            raise DataError(f"{path} holds picks on several seismic lines: {_listed(known)}; choose one with ", LINE)
+        if line is None or line in point.traces:
+            kept.append(point)
         if len(kept) > MOST_POINTS:
             raise DataError(
-                f"{path}: {node.place} is one more than the {MOST_POINTS:,} points that there may be on a line; export "
-                "fewer"
+                f"{path}: {point.location} exceeds the limit of {MOST_POINTS:,} points on a line; export fewer"
             )
-    if possible is None:
+    if shared is None:
         raise DataError(f"{path} holds no picks; export it again")
     if not kept:
-        raise DataError(f"{path} holds no picks on line={line!r}; there are {_listed(known)}")
-    return possible[0] if line is None else line, kept
+        raise DataError(f"{path} holds no picks on ", Keyword("line", line), f"; there are {_listed(known)}")
+    return shared[0] if line is None else line, kept
 
 
-def _listed(known):
-    names = shortened(", ".join(map(repr, list(known)[:SHOWN])))
-    return f"{names}, ..." if len(known) >= SHOWN else names
+def _listed(known: Iterable[str]) -> str:
+    known = list(known)
+    names = shortened(", ".join(map(repr, known[:MOST_LISTED])))
+    return f"{names}, ..." if len(known) >= MOST_LISTED else names
 
 
-def _grouped(nodes: Iterable[Node], key):
-    groups = {}
-    for node in nodes:
-        groups.setdefault(key(node), []).append(node)
+def _grouped(pairs: Iterable[tuple[Key, MapPoint]]) -> dict[Key, list[MapPoint]]:
+    groups: dict[Key, list[MapPoint]] = {}
+    for key, point in pairs:
+        groups.setdefault(key, []).append(point)
     return groups
 
 
-def _pieces(nodes, seismic):
-    traces, there = np.array([(node.lines[seismic], not np.isnan(node.z)) for node in nodes]).T
+def _pieces(points: list[MapPoint], seismic_line: str) -> list[list[MapPoint]]:
+    """Cut a horizon where it has no pick, where its part changes, and where its trace numbers jump or repeat."""
+    traces, defined = np.array([(point.traces[seismic_line], not np.isnan(point.z)) for point in points]).T
     jumps = abs(np.diff(traces))
     step = jumps[jumps > 0].min(initial=np.inf)
     breaks = (jumps > 1.5 * step) | (jumps == 0) if np.isfinite(step) else np.zeros(len(jumps), bool)
-    other = np.array([one.part != next_one.part for one, next_one in pairwise(nodes)], bool)
-    parts = np.cumsum(np.append(0, breaks | other | (np.diff(there) != 0)))
-    kept = [(part, node) for part, node, pick in zip(parts, nodes, there, strict=True) if pick]
-    return [[node for _, node in piece] for piece in _grouped(kept, lambda pair: pair[0]).values()]
+    other_part = np.array([one.part != following.part for one, following in pairwise(points)], bool)
+    pieces = np.cumsum(np.append(0, breaks | other_part | (np.diff(defined) != 0))).tolist()
+    kept = ((piece, point) for piece, point, is_pick in zip(pieces, points, defined, strict=True) if is_pick)
+    return list(_grouped(kept).values())
 
 
-def _line(path, kind, name, nodes, seismic, choices):
-    along = _positions(path, nodes, seismic, choices).tolist()
-    points = tuple(zip(along, (node.z for node in nodes), strict=True))
-    return PickLine(kind, name, points, nodes[0].place)
+def _pick_line(
+    path: Path, kind: str, name: str, points: list[MapPoint], seismic_line: str, options: ExportOptions
+) -> PickLine:
+    x = _positions_along(path, points, seismic_line, options).tolist()
+    return PickLine(kind, name, tuple(zip(x, (point.z for point in points), strict=True)), points[0].location)
 
 
-def _positions(path, nodes, seismic, choices):
-    """Where on the section nodes are."""
-    x, y, trace = np.array([(node.x, node.y, node.lines[seismic]) for node in nodes]).T
-    along = choices.along
+def _positions_along(path: Path, points: list[MapPoint], seismic_line: str, options: ExportOptions) -> np.ndarray:
+    """Positions of map points along the section, shape (n,)."""
+    x, y, traces = np.array([(point.x, point.y, point.traces[seismic_line]) for point in points]).T
+    along = options.along
     if along is None:
         raise DataError(
-            f"{path} gives places on a map; say by along= where they are on the section: 'x', 'y', the line's own "
-            "map coordinates [(X, Y), ...], or a function of X, Y and the trace number"
+            f"{path} gives positions on a map; choose with ",
+            ALONG,
+            " how they lie along the section: 'x', 'y', the line's own map coordinates [(X, Y), ...], or a function of "
+            "X, Y and the trace number",
         )
     if isinstance(along, str) and along in ("x", "y"):
         return x if along == "x" else y
     if callable(along):
-        return _answer(along, x, y, trace)
-    return choices.x0 + _distances(path, nodes, np.column_stack([x, y]), along)
+        return _positions_by_function(along, x, y, traces)
+    return options.x0 + _distances_along(path, points, np.column_stack([x, y]), along)
 
 
-def _answer(along, x, y, trace):
-    answer = along(x, y, trace)
+def _positions_by_function(along: MapFunction, x: np.ndarray, y: np.ndarray, traces: np.ndarray) -> np.ndarray:
+    result = along(x, y, traces)
     try:
-        found = np.asarray(answer, float)
+        positions = np.asarray(result, float)
     except (TypeError, ValueError):
-        found = np.array(np.nan)
-    if found.shape != x.shape or not np.isfinite(found).all():
+        positions = np.array(np.nan)
+    if positions.shape != x.shape or not np.isfinite(positions).all():
         raise DataError(
-            f"the function given as along= must return a finite number for each of {len(x)} points, but returned "
-            f"{brief(answer)}, of shape {found.shape}"
+            "the function given as ",
+            ALONG,
+            f" must return a finite number for each of {len(x)} points, but returned {brief(result)}, of shape "
+            f"{positions.shape}",
         )
-    return found
+    return positions
 
 
-def _distances(path, nodes, places, along):
-    """Distances from the first point of the line on the map, along it."""
+def _distances_along(path: Path, points: list[MapPoint], on_map: np.ndarray, along: object) -> np.ndarray:
+    """Distances of map points along a line, from its first point."""
+    line = _line_on_map(along)
+    shapes = shapely.points(on_map)
+    beside = shapely.distance(shapes, line)
+    if beside.max() > MOST_BESIDE * line.length:
+        worst = points[int(np.argmax(beside))]
+        raise DataError(
+            f"{path}: {worst.location} lies {beside.max():.0f} beside the line given as ",
+            ALONG,
+            f", which is {line.length:.0f} long; check that both are in the same map coordinates, and choose the line "
+            "with ",
+            LINE,
+        )
+    return shapely.line_locate_point(line, shapes)
+
+
+def _line_on_map(along: object) -> shapely.LineString:
     try:
-        line = shapely.LineString(np.array(along, float).reshape(len(along), 2))
+        coordinates = np.array(along, float)
+        line = shapely.LineString(coordinates.reshape(len(coordinates), 2))
     except (TypeError, ValueError, shapely.errors.GEOSException):
         line = shapely.LineString()
     if not (line.length > 0 and np.isfinite(line.length)):
-        raise DataError("along= must be 'x', 'y', a function, or a list of two points (X, Y) or more, of the map")
-    points = shapely.points(places)
-    beside = shapely.distance(points, line)
-    if beside.max() > BESIDE * line.length:
-        worst = nodes[int(np.argmax(beside))]
-        raise DataError(
-            f"{path}: {worst.place} lies {beside.max():.0f} beside the line given as along=, which is "
-            f"{line.length:.0f} long; check that both are in the same map coordinates, and choose the line by line="
-        )
-    return shapely.line_locate_point(line, points)
+        raise DataError(ALONG, " must be 'x', 'y', a function, or a list of two or more points (X, Y) on the map")
+    return line

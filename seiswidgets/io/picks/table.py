@@ -1,46 +1,48 @@
-"""Picks as CSV: a row a point."""
+"""Picks as CSV: one row per point."""
 
 import csv
 import io
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 from seiswidgets.errors import DataError
-from seiswidgets.geology.picks import Interpretation
-from seiswidgets.io.document import LARGEST_OURS, lines, read_text
-from seiswidgets.io.picks.lines import FAULT, HORIZON, FileLines, PickLine, number
+from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
+from seiswidgets.io.document import MOST_JSON_BYTES, Point, read_text, text_lines
+from seiswidgets.io.picks.lines import FileLines, PickLine, parse_number
 
 COLUMNS = ("kind", "name", "piece", "x", "z")
 
 
 def read(path: Path) -> FileLines:
-    """Lines of a CSV file whose first row names at least the columns kind, name, piece, x and z, in any order.
+    """Read a CSV file whose first row names at least the columns kind, name, piece, x and z, in any order.
 
-    The units stand behind x and z, as in ``x (m)``. Rows of the same kind, name and piece make a line, in their order.
+    The units follow x and z, as in ``x (m)``. Rows with the same kind, name and piece make a line, in their order.
     """
-    rows = _rows(path)
-    place, header = next(rows, (None, None))
-    if header is None:
+    rows = _numbered_rows(path)
+    _, header = next(rows, ("", []))
+    if not header:
         raise DataError(f"{path} is empty; its first row must name the columns {', '.join(COLUMNS)}")
-    columns, units = _columns(path, header)
-    drawn: dict[tuple[str, str, str], tuple[str, list]] = {}
-    for place, row in rows:
+    columns, x_unit, z_unit = _columns_and_units(path, header)
+    drawn: dict[tuple[str, str, str], tuple[str, list[Point]]] = {}
+    for location, row in rows:
         if len(row) != len(header):
             raise DataError(
-                f"{path}: {place} must have {len(header)} values as the first, but has {len(row)}; correct or delete "
-                "that row"
+                f"{path}: {location} must have {len(header)} values like the first row, but has {len(row)}; correct or "
+                "delete that row"
             )
         kind, name, piece = (row[columns[column]] for column in COLUMNS[:3])
         if kind not in (FAULT, HORIZON):
-            raise DataError(f"{path}: {place}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
-        point = tuple(number(path, place, column, row[columns[column]]) for column in ("x", "z"))
-        drawn.setdefault((kind, name, piece), (place, []))[1].append(point)
-    found = tuple(PickLine(kind, name, tuple(points), place) for (kind, name, _), (place, points) in drawn.items())
-    return FileLines(found, units["x"], units["z"])
+            raise DataError(f"{path}: {location}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
+        x, z = (parse_number(path, location, column, row[columns[column]]) for column in ("x", "z"))
+        drawn.setdefault((kind, name, piece), (location, []))[1].append((x, z))
+    lines = (PickLine(kind, name, tuple(points), start) for (kind, name, _), (start, points) in drawn.items())
+    return FileLines(tuple(lines), x_unit, z_unit)
 
 
-def _rows(path):
-    reader = csv.reader(lines(read_text(path, LARGEST_OURS)), strict=True)
+def _numbered_rows(path: Path) -> Iterator[tuple[str, list[str]]]:
+    """Location and values of each row that is not blank."""
+    reader = csv.reader(text_lines(read_text(path, MOST_JSON_BYTES)), strict=True)
     try:
         for row in reader:
             if row:
@@ -49,22 +51,22 @@ def _rows(path):
         raise DataError(f"{path}: row {reader.line_num} is not CSV: {error}; save it again as CSV (UTF-8)") from None
 
 
-def _columns(path, header):
-    """Where the columns are, and the units of x and z."""
-    named = [re.fullmatch(r"(\w+) ?(?:\((\w+)\))?", title.strip()) for title in header]
-    titles = [match[1].lower() if match else "" for match in named]
-    places = {title: place for place, title in enumerate(titles)}
-    lacking = [column for column in COLUMNS if titles.count(column) != 1]
-    if lacking:
+def _columns_and_units(path: Path, header: list[str]) -> tuple[dict[str, int], str | None, str | None]:
+    """Index of each column, and the units of x and z."""
+    matches = [re.fullmatch(r"(\w+) ?(?:\((\w+)\))?", title.strip()) for title in header]
+    titles = [match[1].lower() if match else "" for match in matches]
+    wrong = [column for column in COLUMNS if titles.count(column) != 1]
+    if wrong:
         raise DataError(
             f"{path}: row 1 must name the columns {', '.join(COLUMNS)}, each once and separated by commas; missing or "
-            f"doubled: {', '.join(lacking)}"
+            f"repeated: {', '.join(wrong)}"
         )
-    return places, {axis: named[places[axis]][2] for axis in ("x", "z")}
+    units = {title: match[2] for title, match in zip(titles, matches, strict=True) if match}
+    return {title: index for index, title in enumerate(titles)}, units["x"], units["z"]
 
 
-def text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
-    """The table for an interpretation; every number comes back as it was."""
+def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
+    """The CSV table of an interpretation, with exact numbers."""
     table = io.StringIO(newline="")
     writer = csv.writer(table)
     writer.writerow([*COLUMNS[:3], f"x ({x_unit})", f"z ({z_unit})"])

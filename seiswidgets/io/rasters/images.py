@@ -1,10 +1,11 @@
-"""Scanned pictures in: PNG, JPEG and TIFF, their grey as amplitude."""
+"""Scanned images as sections: PNG, JPEG and TIFF, with shades of grey as amplitudes."""
 
 import lzma
 import struct
 import warnings
 import zlib
-from contextlib import contextmanager
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Protocol
 
@@ -13,8 +14,8 @@ from PIL import Image
 from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.document import shortened
-from seiswidgets.io.info import HEIGHT, SectionInfo
-from seiswidgets.io.options import DAMAGED, OF_SEGY, OpenOptions, Progress, section_of
+from seiswidgets.io.info import TIME_OR_DEPTH, SectionInfo
+from seiswidgets.io.options import DAMAGED, SEGY_OPTIONS, OpenOptions, Progress, make_section
 from seiswidgets.io.rasters.raster import Raster
 
 MOST_PIXELS = 40_000_000
@@ -22,7 +23,7 @@ TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 
 
 class Picture(Protocol):
-    """A picture that is open, and of which no pixel has been decoded yet.
+    """An open image, of which no pixel has been decoded yet.
 
     Attributes
     ----------
@@ -36,46 +37,53 @@ class Picture(Protocol):
         Number of pages in full resolution, of which the first is read.
     """
 
-    size: tuple[int, int]
-    shape: tuple[int, int]
-    format: str
-    pages: int
+    @property
+    def size(self) -> tuple[int, int]: ...
 
-    def check(self):
-        """Raise DataError if the file is cut short, or cannot be read without loss."""
+    @property
+    def shape(self) -> tuple[int, int]: ...
+
+    @property
+    def format(self) -> str: ...
+
+    @property
+    def pages(self) -> int: ...
+
+    def check(self) -> None:
+        """Raise DataError if the file is truncated, or cannot be read without loss."""
 
     def raster(self) -> Raster:
         """Decode the pixels."""
 
 
-def open_picture(path: Path, choices: OpenOptions, _progress: Progress | None) -> Section:
-    """A section of a picture: grey counted from the middle one, so that black and white are opposite amplitudes.
+def open_picture(path: Path, options: OpenOptions, _progress: Progress | None) -> Section:
+    """Open an image as a section; shades count from middle grey, so that black and white are opposite amplitudes.
 
-    Colours become grey; clear pixels and those of a no-data value become NaN. Signed integers, floats and integers of
-    32 and 64 bits are amplitudes already. A picture is turned as its metadata say. Of several pages the first in full
-    resolution is taken, with a warning.
+    Colours become grey; transparent pixels and those with a no-data value become NaN. Signed integers, floats, and
+    integers of 32 and 64 bits are used as amplitudes. An image is rotated according to its metadata. If it has several
+    pages, the first in full resolution is read, with a warning.
 
     Raises
     ------
     DataError
-        If the picture is damaged, too large, or of a kind that cannot be read without loss.
+        If the image is damaged, too large, or cannot be read without loss.
     SettingError
-        If its axes or units are not said.
+        If its axes or units are not given.
     """
-    choices.refuse(OF_SEGY, "a picture")
-    choices.time_or_depth(path)
+    options.refuse(SEGY_OPTIONS, "a picture")
+    options.time_or_depth(path)
     with _picture(path) as picture:
-        fields = choices.axes(path, picture.shape)
+        fields = options.axes(path, picture.shape)
         amplitude = picture.raster().amplitude()
     if picture.pages > 1:
         message = f"{path} has {picture.pages} pages, of which only the first is read"
-        warnings.warn(message, stacklevel=3)  # where open_section was called
-    return section_of(path, amplitude, choices, **fields)
+        warnings.warn(message, stacklevel=4)  # points to the call of open_section
+    return make_section(path, amplitude, options, **fields)
 
 
-def preview_picture(path: Path, choices: OpenOptions) -> SectionInfo:
-    """What a picture holds, without decoding it."""
-    choices.refuse(OF_SEGY, "a picture")
+def preview_picture(path: Path, options: OpenOptions) -> SectionInfo:
+    """Summarise an image without decoding it."""
+    options.refuse(SEGY_OPTIONS, "a picture")
     with _picture(path) as picture:
         page = f", page 1 of {picture.pages}" if picture.pages > 1 else ""
         return SectionInfo(
@@ -84,46 +92,46 @@ def preview_picture(path: Path, choices: OpenOptions) -> SectionInfo:
             format=f"{picture.format}{page}",
             size=path.stat().st_size,
             shape=picture.shape,
-            needed=("extent", HEIGHT),
+            needed=("extent", TIME_OR_DEPTH),
         )
 
 
 @contextmanager
-def _picture(path):
-    """A picture, not yet decoded; all errors of the libraries that read it become ours."""
+def _picture(path: Path) -> Iterator[Picture]:
+    """Open an image and check it; errors of the libraries that read it become DataErrors."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about its size, which is checked here, and about odd metadata
-            with _opened(path) as picture:
+            warnings.simplefilter("ignore")  # about its size, which is checked here, and about unusual metadata
+            with _open_picture(path) as picture:
                 _check_size(path, picture)
                 picture.check()
                 yield picture
     except SeiswidgetsError:
         raise
     except Image.DecompressionBombError as error:
-        raise DataError(f"{path} is too large a picture: {error}; save a smaller one") from error
+        raise DataError(f"{path} is too large an image: {error}; save a smaller one") from error
     except (*DAMAGED, MemoryError, struct.error, zlib.error, lzma.LZMAError) as error:
         raise DataError(
-            f"{path} is a damaged picture, or one of an unusual kind: {shortened(str(error))}; save it anew as PNG"
+            f"{path} is a damaged image, or one of an unusual kind: {shortened(str(error))}; save it again as PNG"
         ) from error
 
 
-def _opened(path):
-    """The picture of a file, as a context manager. tifffile is imported only where it is needed."""
+def _open_picture(path: Path) -> AbstractContextManager[Picture]:
+    """Open an image file; tifffile is imported only if it is needed."""
     with path.open("rb") as file:
         beginning = file.read(4)
     if beginning in TIFF:
-        from seiswidgets.io.rasters.tiff import opened_tiff
+        from seiswidgets.io.rasters.tiff import open_tiff
 
-        return opened_tiff(path)
-    from seiswidgets.io.rasters.png_jpeg import opened_png_or_jpeg
+        return open_tiff(path)
+    from seiswidgets.io.rasters.png_jpeg import open_png_or_jpeg
 
-    return opened_png_or_jpeg(path)
+    return open_png_or_jpeg(path)
 
 
-def _check_size(path, picture):
+def _check_size(path: Path, picture: Picture) -> None:
     width, height = picture.size
     if width * height > MOST_PIXELS:
         raise DataError(
-            f"{path} is a picture of {width} x {height} pixels; there may be {MOST_PIXELS:,}: save a smaller one"
+            f"{path} is an image of {width} x {height} pixels; the limit is {MOST_PIXELS:,}: save a smaller one"
         )

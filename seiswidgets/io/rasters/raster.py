@@ -1,16 +1,17 @@
-"""Pixels of a picture as they are stored, and the amplitudes that they stand for."""
+"""Stored pixels of an image, and their amplitudes."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-DEEPEST_GREY = 16  # bits; larger whole numbers are data, not shades
+DEEPEST_GREY = 16  # bits; larger integers are data, not shades
 RED, GREEN, BLUE = 19595, 38470, 7471  # weights of ITU-R BT.601 in 65536ths, rounded as Pillow and libjpeg do
 
 
 @dataclass(frozen=True, eq=False)
 class Raster:
-    """Stored pixels, before they are turned upright.
+    """Stored pixels, before they are rotated upright.
 
     Attributes
     ----------
@@ -32,17 +33,17 @@ class Raster:
     orientation: int = 1
 
     def amplitude(self) -> np.ndarray:
-        """Amplitudes, upright, NaN where the picture is clear.
+        """Amplitudes, upright, NaN where the image has no data.
 
-        Shades count from the middle one, so that black and white are opposite; those of fewer than 8 bits are scaled
-        to 8. Signed integers, floats and integers above 16 bits are taken as they are. The result is float32, or
-        float64 where the samples exceed float32's precision.
+        Shades count from middle grey, so that black and white are opposite; those of fewer than 8 bits are scaled to 8.
+        Signed integers, floats and integers above 16 bits are used unchanged. The result is float32, or float64 if the
+        samples exceed float32's precision.
         """
         shades = are_shades(self.samples.dtype, self.bits)
         grey = _grey(self.samples, shades)
-        exact = np.float64 if grey.dtype.itemsize > 4 or (grey.dtype.kind in "iu" and self.bits > 24) else np.float32
-        with np.errstate(over="ignore"):  # infinite amplitudes are reported where the section is made
-            amplitude = grey.astype(exact)
+        is_wide = grey.dtype.itemsize > 4 or (grey.dtype.kind in "iu" and self.bits > 24)
+        with np.errstate(over="ignore"):  # infinite amplitudes are reported when the section is made
+            amplitude: np.ndarray[Any, np.dtype[np.floating]] = grey.astype(np.float64 if is_wide else np.float32)
         if shades:
             largest = 2**self.bits - 1
             if self.bits < 8:
@@ -56,12 +57,12 @@ class Raster:
 
 
 def are_shades(dtype: np.dtype, bits: int) -> bool:
-    """Whether samples are shades of grey or colour, rather than data."""
+    """Check whether samples are shades of grey or colour, rather than data."""
     return dtype.kind == "u" and bits <= DEEPEST_GREY
 
 
-def _grey(samples, shades):
-    """Luma of red, green and blue; of shades it is rounded to one, like Pillow's. Shape (height, width)."""
+def _grey(samples: np.ndarray, shades: bool) -> np.ndarray:
+    """Luma of red, green and blue, rounded like Pillow's if they are shades; shape (height, width)."""
     if samples.shape[2] == 1:
         return samples[:, :, 0]
     red, green, blue = np.moveaxis(samples, 2, 0)
@@ -75,7 +76,7 @@ def _grey(samples, shades):
 
 
 def upright(pixels: np.ndarray, orientation: int) -> np.ndarray:
-    """Pixels turned and mirrored as an orientation of TIFF or EXIF says; unknown ones count as upright."""
+    """Rotate and mirror pixels according to an orientation of TIFF or EXIF; unknown ones count as upright."""
     if orientation in (2, 3, 7, 8):
         pixels = pixels[:, ::-1]
     if orientation in (3, 4, 6, 7):
@@ -84,5 +85,5 @@ def upright(pixels: np.ndarray, orientation: int) -> np.ndarray:
 
 
 def is_turned(orientation: int) -> bool:
-    """Whether an orientation exchanges width and height."""
+    """Check whether an orientation exchanges width and height."""
     return orientation in (5, 6, 7, 8)

@@ -1,14 +1,16 @@
-"""TIFF: its tags read with tifffile, its pixels at all the bits that they have."""
+"""TIFF: tags read with tifffile, pixels decoded at their full bit depth."""
 
 import logging
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO, cast
 
 import numpy as np
 import tifffile
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.options import checked_size
+from seiswidgets.io.options import check_memory
 from seiswidgets.io.rasters.raster import Raster, are_shades, is_turned
 from seiswidgets.io.rasters.tiff_layout import (
     PALETTE,
@@ -20,33 +22,34 @@ from seiswidgets.io.rasters.tiff_layout import (
     palette_of,
     whole,
 )
-from seiswidgets.io.rasters.tiff_segments import COMPRESSIONS, decoded, missing_data
+from seiswidgets.io.rasters.tiff_segments import COMPRESSIONS, TiffLayout, decode, missing_data
 
 ORIENTATION, NO_DATA = 274, 42113  # tags
-REDUCED, MASK = 1, 4  # what a page may be of another, as bits of its subfile type
-ODD = (AssertionError, AttributeError)  # what tifffile raises at damaged files, beside what is expected everywhere
+REDUCED, MASK = 1, 4  # bits of the subfile type of a page that belongs to another one
+UNEXPECTED = (AssertionError, AttributeError)  # raised by tifffile on damaged files, besides the usual errors
 
 
 @contextmanager
-def opened_tiff(path: Path):
-    """Open a TIFF file as a ``Picture``: its first page in full resolution."""
+def open_tiff(path: Path) -> "Iterator[TiffPicture]":
+    """Open the first page in full resolution of a TIFF file as a ``Picture``."""
     with _quiet(), path.open("rb") as file:
         try:
-            pages = list(tifffile.TiffFile(file).pages)  # not closed: long tags are read when they are asked for
+            tiff = tifffile.TiffFile(file)  # not closed: long tags are read on demand
+            pages = cast(list[tifffile.TiffPage], list(tiff.pages))
             kinds = [whole(path, page, "subfiletype") for page in pages]
-        except ODD as error:
-            raise DataError(f"{path} is a damaged TIFF: {error!r}; save it anew") from error
-        told = list(zip(pages, kinds, strict=True))
-        full = [page for page, kind in told if not kind & (REDUCED | MASK) and page.dataoffsets] or pages[:1]
-        masks = [page for page, kind in told if kind & MASK and page.index > full[0].index]
+        except UNEXPECTED as error:
+            raise DataError(f"{path} is a damaged TIFF: {error!r}; save it again") from error
+        typed = list(zip(pages, kinds, strict=True))
+        full = [page for page, kind in typed if not kind & (REDUCED | MASK) and page.dataoffsets] or pages[:1]
+        masks = [page for page, kind in typed if kind & MASK and page.index > full[0].index]
         yield TiffPicture(path, file, full[0], masks, len(full))
 
 
 @contextmanager
-def _quiet():
-    """Keep out of notebooks what tifffile logs of odd files: what matters of it is checked here."""
+def _quiet() -> Iterator[None]:
+    """Keep tifffile's log messages about unusual files out of notebooks: what matters is checked here."""
 
-    def nothing(_record):  # a filter of its own, as several files may be read at a time
+    def nothing(_record: logging.LogRecord) -> bool:  # a filter for each call, as several files may be read at a time
         return False
 
     logger = logging.getLogger("tifffile")
@@ -60,7 +63,7 @@ def _quiet():
 class TiffPicture:
     """A page of a TIFF file; see ``Picture``."""
 
-    def __init__(self, path: Path, file, page: tifffile.TiffPage, masks: list[tifffile.TiffPage], pages: int):
+    def __init__(self, path: Path, file: BinaryIO, page: tifffile.TiffPage, masks: list[tifffile.TiffPage], pages: int):
         self.path, self.file, self.page, self.pages = path, file, page, pages
         self.layout = layout_of(path, page)
         self.colours = colours_of(path, page, self.layout)
@@ -85,17 +88,17 @@ class TiffPicture:
         ignored = f", {colours.ignored} more band(s) ignored" if colours.ignored else ""
         return f"TIFF, {bits}-bit {named}{alpha}{white}{mask}{no_data}{ignored}"
 
-    def check(self):
-        """Raise DataError if the file is cut short."""
+    def check(self) -> None:
+        """Raise DataError if the file is truncated."""
         self._check_data(self.layout)
-        checked_size(self.path, (*self.shape, self.layout.samples), self.layout.dtype.itemsize)
+        check_memory(self.path, (*self.shape, self.layout.samples), self.layout.dtype.itemsize)
 
-    def _check_data(self, layout):
+    def _check_data(self, layout: TiffLayout) -> None:
         missing = missing_data(layout, self.path.stat().st_size)
         if missing:
             raise DataError(
-                f"{self.path} says that it has {layout.width} x {layout.height} pixels, but holds {missing}; it is "
-                "damaged: save it anew"
+                f"{self.path} claims to have {layout.width} x {layout.height} pixels, but holds {missing}; it is "
+                "damaged: save it again"
             )
 
     def raster(self) -> Raster:
@@ -115,23 +118,23 @@ class TiffPicture:
             clear = _either(clear, self._is_masked(mask))
         return Raster(colours, bits, clear, self.colours.photometric == WHITE_IS_ZERO, self.orientation)
 
-    def _decoded(self):
+    def _decoded(self) -> tuple[np.ndarray, np.ndarray | None]:
         if self.layout.compression in COMPRESSIONS:
-            return decoded(self.file, self.layout)
-        with tifffile.TiffFile(self.path) as tiff:  # by imagecodecs, which is installed: else it had been refused
+            return decode(self.file, self.layout)
+        with tifffile.TiffFile(self.path) as tiff:  # with imagecodecs: its absence is refused earlier
             pixels = tiff.pages[self.page.index].asarray(maxworkers=1)
         pixels = np.moveaxis(pixels, 0, 2) if self.layout.planar else pixels
         return pixels.reshape(self.layout.height, self.layout.width, self.layout.samples), None
 
-    def _is_masked(self, mask):
+    def _is_masked(self, mask: tifffile.TiffPage) -> np.ndarray | None:
         layout = layout_of(self.path, mask)
         self._check_data(layout)
-        pixels, absent = decoded(self.file, layout)
+        pixels, absent = decode(self.file, layout)
         return _either(absent, (pixels == 0).all(axis=2))
 
 
-def _no_data(path, page):
-    """The value of GDAL's tag for pixels without data: an int if it is whole, else a float; None without the tag."""
+def _no_data(path: Path, page: tifffile.TiffPage) -> float | None:
+    """Value of GDAL's tag for pixels without data: an int if it is whole, otherwise a float; None without the tag."""
     text = page.tags.valueof(NO_DATA)
     text = text.strip().replace(",", ".") if isinstance(text, str) else text
     if not text:
@@ -141,11 +144,11 @@ def _no_data(path, page):
             return number(text)
         except (TypeError, ValueError):
             continue
-    raise DataError(f"{path}: its no-data value (GDAL's tag 42113) must be a number, but is {text!r}; save it anew")
+    raise DataError(f"{path}: its no-data value (GDAL's tag 42113) must be a number, but is {text!r}; save it again")
 
 
-def _equal(colours, value):
-    """Pixels all of whose colours are some value as their dtype has it, or None if none can be."""
+def _equal(colours: np.ndarray, value: float | None) -> np.ndarray | None:
+    """Mask of pixels whose colours all equal a value, or None if their dtype cannot hold it."""
     if value is None or value != value:
         return None
     if colours.dtype.kind == "f":
@@ -157,12 +160,12 @@ def _equal(colours, value):
     return (colours == colours.dtype.type(int(value))).all(axis=2)
 
 
-def _either(first, second):
+def _either(first: np.ndarray | None, second: np.ndarray | None) -> np.ndarray | None:
     return second if first is None else first if second is None else first | second
 
 
-def _unmultiplied(colours, alpha, bits):
-    """Colours as they were before they were multiplied by an opacity of 0 to 1, or to the largest integer."""
+def _unmultiplied(colours: np.ndarray, alpha: np.ndarray, bits: int) -> np.ndarray:
+    """Colours before they were multiplied by their opacity, from 0 to 1 or to the largest integer."""
     largest = 1.0 if colours.dtype.kind == "f" else 2.0 ** (bits - (colours.dtype.kind == "i")) - 1
     factor = np.divide(largest, alpha, out=np.zeros(alpha.shape), where=alpha != 0)
     if colours.dtype.kind == "f":

@@ -1,16 +1,20 @@
-"""The layout of a SEG-Y file: its headers' claims, weighed against the file's size and against its trace headers."""
+"""Layout of a SEG-Y file: its headers' claims, checked against the file's size and its trace headers."""
 
 import struct
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from io import SEEK_END
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.options import checked_shape
+from seiswidgets.geology.findings import Finding
+from seiswidgets.io.options import check_shape
 
 TEXT, HEADERS, TRACE_HEADER = 3200, 3600, 240
-FORMATS = {  # SEG-Y's code: what a sample is, and its bytes
+FORMATS = {  # sample format and its bytes, by SEG-Y's code
     1: ("IBM float", 4),
     2: ("integer", 4),
     3: ("integer", 2),
@@ -23,35 +27,35 @@ FORMATS = {  # SEG-Y's code: what a sample is, and its bytes
 }
 ORDERS = {"big": ">", "little": "<"}
 FINE = 1e9  # microseconds or millimetres: no sample interval is that long
-CHECKED = 64  # trace headers that are asked for their number of samples
-MOST_PADDING = 2**20  # zero bytes behind the last trace
-MOST_TEXTS = 1000  # further textual headers that a file of revision 0 is believed to have, if its size confirms them
+CHECKED = 64  # trace headers whose number of samples is checked
+MOST_PADDING = 2**20  # zero bytes after the last trace
+MOST_TEXTS = 1000  # further textual headers that revision 0 may have, if the file's size confirms them
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Sizes of a SEG-Y file, confirmed by its length.
+    """Arrangement of a SEG-Y file, confirmed by its length.
 
     Attributes
     ----------
     path : Path
     endian : "big" or "little"
     code : int
-        Of the samples' format, a key of ``FORMATS``.
+        Code of the sample format, a key of ``FORMATS``.
     samples, traces : int
-        Samples a trace, and traces in the file.
+        Samples per trace, and traces in the file.
     first : int
         Bytes before the first trace.
     interval : float
-        Of the samples, in microseconds or in millimetres; 0 where the binary header does not say.
+        Sample interval, in microseconds or millimetres; 0 if the binary header does not state it.
     x_unit : "m", "ft" or None
-        Unit of lengths; None where the binary header does not say.
+        Unit of lengths; None if the binary header does not state it.
     revision : int
-        Of the standard: 0, 1 or 2.
+        Revision of the standard: 0, 1 or 2.
     text : str
         The textual header, 40 lines.
-    notes : tuple of str
-        Where the layout differs from what the headers claim.
+    doubts : tuple of Finding
+        Differences between the layout and the headers' claims.
     """
 
     path: Path
@@ -64,7 +68,7 @@ class Layout:
     x_unit: str | None
     revision: int
     text: str
-    notes: tuple[str, ...] = ()
+    doubts: tuple[Finding, ...] = ()
 
     @property
     def trace_length(self) -> int:
@@ -73,91 +77,93 @@ class Layout:
 
     @property
     def format(self) -> str:
-        """What a sample is, in words."""
+        """Sample format, in words."""
         kind, size = FORMATS[self.code]
         return f"{kind}, {size} bytes, {self.endian}-endian"
 
 
-def layout(path: Path) -> Layout:
-    """The layout of a SEG-Y file.
+def read_layout(path: Path) -> Layout:
+    """Read and check the layout of a SEG-Y file.
 
     Raises
     ------
     DataError
-        If the file is not SEG-Y, or its length is not what its headers say.
+        If the file is not SEG-Y, or its length contradicts its headers.
     """
     with path.open("rb") as file:
         head = file.read(HEADERS)
     if len(head) < HEADERS:
         raise DataError(
-            f"{path} is no SEG-Y file: it ends after {len(head)} bytes, within the {HEADERS} of the headers; "
-            "it was cut short, or is of another kind"
+            f"{path} is not a SEG-Y file: it ends after {len(head)} bytes, within the {HEADERS} bytes of the headers; "
+            "it is truncated, or in another format"
         )
     endian = _byte_order(path, head)
     order = ORDERS[endian]
     code = _code(head, order)
-    found, notes = _arrangement(path, head, order, FORMATS[code][1])
-    checked_shape(path, (found.samples, found.traces))
+    best = _find_arrangement(path, head, order, FORMATS[code][1])
+    check_shape(path, (best.samples, best.traces))
     return Layout(
         path=path,
         endian=endian,
         code=code,
-        samples=found.samples,
-        traces=found.traces,
-        first=found.first,
+        samples=best.samples,
+        traces=best.traces,
+        first=best.first,
         interval=_interval(head, order),
         x_unit={1: "m", 2: "ft"}.get(struct.unpack_from(f"{order}h", head, 3254)[0]),
         revision=_revision(head),
         text=decoded(head[:TEXT]),
-        notes=notes,
+        doubts=tuple(Finding("warning", "headers", text) for text in _differences(best, head, order)),
     )
 
 
-def _revision(head):
-    """The revision of the standard: two bytes, or by some programs one number; anything unknown is revision 0."""
+def _revision(head: bytes) -> int:
+    """Revision of the standard: two bytes, or one number in files of some programs; 0 if it is unknown."""
     major = head[3501] if head[3500:3502] == b"\0\1" else head[3500]
     return major if major in (1, 2) else 0
 
 
-def _interval(head, order):
-    """The sample interval; revision 2 has a finer one, which counts over the old one."""
+def _interval(head: bytes, order: str) -> float:
+    """Sample interval; the finer one of revision 2 takes precedence over the old one."""
     (fine,) = struct.unpack_from(f"{order}d", head, 3272)
-    return fine if _revision(head) == 2 and 0 < fine < FINE else struct.unpack_from(f"{order}H", head, 3216)[0]
+    (whole,) = struct.unpack_from(f"{order}H", head, 3216)
+    return float(fine if _revision(head) == 2 and 0 < fine < FINE else whole)
 
 
 def begins_like_segy(head: bytes) -> bool:
-    """Whether the beginning of a file may be SEG-Y's headers."""
+    """Check whether the first bytes of a file may be SEG-Y's headers."""
     return len(head) >= HEADERS and any(_code(head, order) in FORMATS for order in ORDERS.values())
 
 
-def _code(head, order):
-    return struct.unpack_from(f"{order}H", head, 3224)[0]
+def _code(head: bytes, order: str) -> int:
+    (code,) = struct.unpack_from(f"{order}H", head, 3224)
+    return int(code)
 
 
-def _byte_order(path, head):
-    """The one of the two in which the code of the format, two bytes, is one that there is."""
+def _byte_order(path: Path, head: bytes) -> str:
+    """The byte order in which the two-byte code of the sample format is a known one."""
     for endian, order in ORDERS.items():
         if _code(head, order) in FORMATS:
             return endian
     raise DataError(
-        f"{path} is no SEG-Y file that can be read: bytes 3225-3226 must be the code of a sample format "
+        f"{path} is not a SEG-Y file that can be read: bytes 3225-3226 must be the code of a sample format "
         f"({', '.join(str(code) for code in FORMATS)}), but are {head[3224]} and {head[3225]}; "
-        "it is damaged, or of another kind"
+        "it is damaged, or in another format"
     )
 
 
 @dataclass(frozen=True)
 class _Arrangement:
-    """A way to divide a file into traces, with the evidence for it.
+    """A possible division of a file into traces, with the evidence for it.
 
     Attributes
     ----------
     first, samples, traces, rest : int
-        Bytes before the first trace, samples a trace, whole traces, and bytes left behind them.
+        Bytes before the first trace, samples per trace, whole traces, and bytes left after them.
     agreement : float
-        Mean over some trace headers: 1 if they state this number of samples, 0 if none, -1 if another.
+        Mean over some trace headers: 1 for each that states this number of samples, 0 for none, -1 for another.
     padded : bool
-        Whether the bytes left are all 0.
+        Whether all bytes left are 0.
     """
 
     first: int
@@ -168,43 +174,44 @@ class _Arrangement:
     padded: bool
 
     @property
-    def fits(self):
-        """Whether the file's size confirms this; zeros at its end are let pass if all trace headers confirm it."""
+    def fits(self) -> bool:
+        """True if the file's size confirms this; zeros at its end are accepted if all trace headers confirm it."""
         return self.traces >= 1 and (not self.rest or (self.padded and self.agreement == 1))
 
 
-def _arrangement(path, head, order, itemsize):
-    """Find the arrangement that the file's size and its trace headers confirm; and notes on what differs."""
+def _find_arrangement(path: Path, head: bytes, order: str, itemsize: int) -> _Arrangement:
+    """Find the arrangement that the file's size and its trace headers confirm."""
     with path.open("rb") as file:
         tried = [
-            _tried(file, path.stat().st_size, first, samples, itemsize, order)
+            _arrangement(file, first, samples, itemsize, order)
             for first in _starts(path, head, order)
-            for samples in _counts(file, head, order, first)
+            for samples in _sample_counts(file, head, order, first)
         ]
     if not tried:
         raise DataError(
-            f"{path} says that its traces have no samples (bytes 3221-3222, and 115-116 of its first trace header); "
-            "write it anew from the program it is from"
+            f"{path} states that its traces have no samples (bytes 3221-3222, and 115-116 of its first trace header); "
+            "export it again from the program that it comes from"
         )
     fitting = [each for each in tried if each.fits]
     if not fitting:
         raise DataError(_misfit(path, tried[0], itemsize))
-    best = max(fitting, key=lambda each: each.agreement)  # of equals the first, which the binary header states
-    return best, tuple(_differences(best, head, order))
+    return max(fitting, key=lambda each: each.agreement)  # of equals the first, which the binary header states
 
 
-def _starts(path, head, order):
-    """Bytes that may stand before the first trace, the likeliest first."""
+def _starts(path: Path, head: bytes, order: str) -> list[int]:
+    """Possible first bytes of the first trace, the likeliest first."""
     (texts,) = struct.unpack_from(f"{order}h", head, 3504)
-    if not _revision(head):  # which leaves these bytes free: the file's size must confirm them
+    if not _revision(head):  # where these bytes are unassigned: the file's size must confirm them
         return [HEADERS] + [HEADERS + TEXT * texts] * (1 <= texts <= MOST_TEXTS)
     if texts < 0:
-        raise DataError(f"{path} has an unknown number of further textual headers (bytes 3505-3506); write it without")
+        raise DataError(
+            f"{path} has an unknown number of further textual headers (bytes 3505-3506); write it again without them"
+        )
     return [HEADERS + TEXT * texts] + [HEADERS] * (texts > 0)
 
 
-def _counts(file, head, order, first):
-    """Numbers of samples that the binary header and the first trace header state, the likeliest first."""
+def _sample_counts(file: BinaryIO, head: bytes, order: str, first: int) -> list[int]:
+    """Numbers of samples stated in the binary header and the first trace header, the likeliest first."""
     (samples,) = struct.unpack_from(f"{order}H", head, 3220)
     (extended,) = struct.unpack_from(f"{order}I", head, 3268)
     own = _own_counts(file, [first], order)
@@ -212,56 +219,57 @@ def _counts(file, head, order, first):
     return list(dict.fromkeys(int(count) for count in stated if count))
 
 
-def _own_counts(file, starts, order):
+def _own_counts(file: BinaryIO, starts: Sequence[int], order: str) -> np.ndarray:
     """Numbers of samples in the trace headers that start at some bytes of the file; 0 beyond its end."""
-    found = []
+    counts = []
     for start in starts:
         file.seek(int(start) + 114)
-        found.append(file.read(2).ljust(2, b"\0"))
-    return np.frombuffer(b"".join(found), f"{order}u2")
+        counts.append(file.read(2).ljust(2, b"\0"))
+    return np.frombuffer(b"".join(counts), f"{order}u2")
 
 
-def _tried(file, size, first, samples, itemsize, order):
+def _arrangement(file: BinaryIO, first: int, samples: int, itemsize: int, order: str) -> _Arrangement:
+    size = file.seek(0, SEEK_END)
     length = TRACE_HEADER + samples * itemsize
     traces, rest = divmod(max(size - first, 0), length)
-    checked = np.unique(np.linspace(0, traces - 1, min(traces, CHECKED)).astype(np.int64)) if traces else [0]
-    own = _own_counts(file, [first + int(trace) * length for trace in checked], order)
-    agreement = np.where(own == samples & 0xFFFF, 1, np.where(own == 0, 0, -1)).mean()
+    checked = np.unique(np.linspace(0, max(traces - 1, 0), min(max(traces, 1), CHECKED)).astype(np.int64)).tolist()
+    own = _own_counts(file, [first + trace * length for trace in checked], order)
+    agreement = float(np.where(own == samples & 0xFFFF, 1, np.where(own == 0, 0, -1)).mean())
     file.seek(size - rest)
     padded = agreement == 1 and rest <= MOST_PADDING and not file.read(rest).strip(b"\0")
-    return _Arrangement(first, samples, traces, rest, float(agreement), padded)
+    return _Arrangement(first, samples, traces, rest, agreement, padded)
 
 
-def _misfit(path, tried, itemsize):
+def _misfit(path: Path, tried: _Arrangement, itemsize: int) -> str:
     return (
         f"{path} has {path.stat().st_size} bytes, which do not fit its headers: traces of {tried.samples} samples take "
         f"{TRACE_HEADER + tried.samples * itemsize} bytes each, from byte {tried.first} on; {tried.traces} fit, and "
-        f"{tried.rest} bytes are left. It was cut short, its headers are damaged, its traces differ in length, or it "
-        "has further headers or trailers of revision 2, which are not read: copy it again from where it came, or write "
-        "it anew as revision 1"
+        f"{tried.rest} bytes are left. It is truncated, its headers are damaged, its traces differ in length, or it "
+        "has further headers or trailers of revision 2, which are not supported: copy it again from its source, or "
+        "export it again as revision 1"
     )
 
 
-def _differences(best, head, order):
-    """Where the arrangement that the file confirms differs from what the binary header claims."""
+def _differences(best: _Arrangement, head: bytes, order: str) -> Iterator[str]:
+    """Describe how the arrangement that the file confirms differs from the binary header's claims."""
     (samples,) = struct.unpack_from(f"{order}H", head, 3220)
     if best.samples != samples and _revision(head) < 2:
         yield (
-            f"the binary header states {samples} samples a trace (bytes 3221-3222); {best.samples} are read, as the "
-            "trace headers state and the file's size confirms"
+            f"the binary header states {samples} samples per trace (bytes 3221-3222); {best.samples} are read, as "
+            "the trace headers state and the file's size confirms"
         )
     elif best.agreement < 0:
         yield (
             f"trace headers state other numbers of samples (bytes 115-116) than the binary header; {samples} are read, "
-            "as that one states and the file's size confirms"
+            "as the binary header states and the file's size confirms"
         )
     if best.rest:
-        yield f"{best.rest} zero bytes behind the last trace are ignored"
+        yield f"{best.rest} zero bytes after the last trace are ignored"
 
 
 def decoded(text: bytes) -> str:
-    """SEG-Y's textual header in lines of 80 characters, from EBCDIC or ASCII; what cannot be shown as a dot."""
-    ebcdic = text.count(0x40) > text.count(0x20)  # the blank of either
-    letters = text.decode("cp500").replace("¦", "|") if ebcdic else text.decode("latin-1")  # as segyio has it
+    """Decode SEG-Y's textual header, EBCDIC or ASCII, to lines of 80 characters, with dots for unprintable ones."""
+    ebcdic = text.count(0x40) > text.count(0x20)  # the space of either
+    letters = text.decode("cp500").replace("¦", "|") if ebcdic else text.decode("latin-1")  # like segyio
     shown = "".join(letter if letter.isprintable() else "." if ord(letter) else " " for letter in letters)
     return "\n".join(shown[start : start + 80].rstrip() for start in range(0, len(shown), 80))

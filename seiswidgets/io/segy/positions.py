@@ -1,21 +1,21 @@
-"""Map positions of SEG-Y traces: integers as the standard has them, or floats at the same bytes where that is plain."""
+"""Map positions of SEG-Y traces: integers as in the standard, or floats at the same bytes where that is evident."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from seiswidgets.errors import DataError
+from seiswidgets.errors import DataError, Keyword, Text
 from seiswidgets.geology.section import METRES
 from seiswidgets.io.segy.doubts import Scale, are_degrees
 from seiswidgets.io.segy.traces import SHORT, TraceHeaders, ibm_floats
 from seiswidgets.io.segy.vertical import STANDARD_SCALARS, finest_interval, scalar_factors
 
-PLACES = ((181, 185), (73, 77), (81, 85))  # of the midpoint; source and receiver, where old lines have their positions
-SMALLEST, LARGEST = 1e-3, 1e9  # of a float that is a position, beside 0
+POSITION_BYTES = ((181, 185), (73, 77), (81, 85))  # midpoint; source and receiver, used by old lines
+SMALLEST, LARGEST = 1e-3, 1e9  # size of a position other than 0 stored as a float
 INTEGERS = "integers"
-EVEN = 0.05  # of the spacing: what a step may differ from it, beside the rounding of the positions
-ROUNDED = 1.5  # roundings: by how much a step may differ whose ends are both rounded, in x and in y
+EVEN = 0.05  # of the spacing: tolerance of a step, besides the rounding of the positions
+ROUNDED = 1.5  # roundings: tolerance of a step whose ends are both rounded, in x and in y
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,11 +26,11 @@ class Positions:
     ----------
     x, y : array, shape (n,)
     rounding : float
-        The step in which they are stored.
+        Smallest step in which they are stored.
     stored : str
-        As what, in words.
+        Storage format, in words.
     scalar : int
-        That of the first trace, as the header has it.
+        Scalar of the first trace, as in its header.
     """
 
     x: np.ndarray
@@ -41,32 +41,32 @@ class Positions:
 
     @property
     def steps(self) -> np.ndarray:
-        """Distance from each to the next, shape (n - 1,)."""
+        """Distance from each position to the next, shape (n - 1,)."""
         return np.hypot(np.diff(self.x), np.diff(self.y))
 
     @property
     def spacing(self) -> float:
-        """Median distance from one to the next."""
+        """Median distance from one position to the next."""
         return float(np.median(self.steps))
 
     @property
     def is_even(self) -> bool:
-        """Whether all steps are as long as the median, but for their rounding."""
+        """True if all steps are as long as the median, within tolerance."""
         return bool(np.abs(self.steps - self.spacing).max() <= EVEN * self.spacing + ROUNDED * self.rounding)
 
 
 def scale_of(headers: TraceHeaders, traces: np.ndarray) -> Scale:
-    """The unit and the sample interval by which positions are judged."""
+    """Unit and sample interval by which positions are judged."""
     return Scale(METRES[headers.x_unit], finest_interval(headers, traces[:1]))
 
 
 def positions(headers: TraceHeaders, traces: np.ndarray) -> Positions:
-    """Positions of traces, read as floats where integers cannot be meant and one kind of floats is plausible.
+    """Positions of traces, read as floats if integers are implausible and exactly one kind of floats is plausible.
 
     Raises
     ------
     DataError
-        If their scalar is not the standard's, or if they are plausible when read in several ways.
+        If their scalar is not one of the standard's, or if several readings are plausible.
     """
     scalar = _checked_scalar(headers, traces)
     raw, factor = [headers(name, traces) for name in ("x", "y")], scalar_factors(scalar)
@@ -74,38 +74,42 @@ def positions(headers: TraceHeaders, traces: np.ndarray) -> Positions:
     floats = list(_as_floats(headers, raw, scalar))
     if not floats:
         return integers
-    found = _plausible(scale_of(headers, traces), [integers, *floats])
-    if len(found) > 1:
-        raise DataError(_ambiguous(headers, found))
-    return next(iter(found), integers)
+    plausible = _plausible(scale_of(headers, traces), [integers, *floats])
+    if len(plausible) > 1:
+        raise DataError(_ambiguous(headers, plausible), kind="positions")
+    return next(iter(plausible), integers)
 
 
-def _plausible(scale, readings):
-    """Those that a survey may have; of several the even one, and only if there are none, floats that are degrees."""
-    found = [
+def _plausible(scale: Scale, readings: Sequence[Positions]) -> list[Positions]:
+    """Readings that a survey may have: if there are several, the even one; if none, one that is in degrees."""
+    plausible = [
         each for each in readings if scale.is_spacing(each.spacing) and scale.is_on_map(each.x, each.y, each.spacing)
     ]
-    if not found:
+    if not plausible:
         return [each for each in readings if each.spacing and are_degrees(each.x, each.y, each.spacing)][:1]
-    even = [each for each in found if each.is_even]
-    return even if len(even) == 1 else found
+    even = [each for each in plausible if each.is_even]
+    return even if len(even) == 1 else plausible
 
 
-def _checked_scalar(headers, traces):
+def _checked_scalar(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
     scalar = headers("scalar", traces)
     other = scalar[~np.isin(np.abs(scalar), STANDARD_SCALARS)]
     if len(other):
         raise DataError(
-            f"{headers.layout.path} has {other[0]} as the scalar of its positions (byte {headers.bytes['scalar']} of "
-            "the trace header), which must be 1, 10, 100, 1000 or 10000, or one of these below 0. If it stands at "
-            "another byte, give header_bytes=; or say how far apart the traces are: dx="
+            f"{headers.layout.path} has {other[0]} as the scalar of its positions (byte "
+            f"{headers.first_bytes['scalar']} of the trace header), which must be 1, 10, 100, 1000 or 10000, or the "
+            "negative of one of these. If it is at another byte, give ",
+            Keyword("header_bytes"),
+            "; or give the distance between traces: ",
+            Keyword("dx"),
+            kind="positions",
         )
     return scalar
 
 
-def _as_floats(headers, raw, scalar) -> Iterator[Positions]:
-    """Readings of four bytes as floats, with and without the scalar; none where one is no size of a position."""
-    if {headers.bytes["x"], headers.bytes["y"]} & SHORT:
+def _as_floats(headers: TraceHeaders, raw: Sequence[np.ndarray], scalar: np.ndarray) -> Iterator[Positions]:
+    """Readings of four bytes as floats, with and without the scalar, if all of them may be positions."""
+    if {headers.first_bytes["x"], headers.first_bytes["y"]} & SHORT:
         return
     bits = [values.astype(np.uint32) for values in raw]  # negative integers keep their bits
     for kind, read in (("IEEE floats", _ieee_floats), ("IBM floats", ibm_floats)):
@@ -122,34 +126,35 @@ def _as_floats(headers, raw, scalar) -> Iterator[Positions]:
             yield Positions(x * factor, y * factor, rounding, f"{kind} with their scalar", first)
 
 
-def _ieee_floats(bits):
+def _ieee_floats(bits: np.ndarray) -> np.ndarray:
     return bits.view(np.float32).astype(float)
 
 
-def _ambiguous(headers, plausible):
-    x, y = headers.bytes["x"], headers.bytes["y"]
+def _ambiguous(headers: TraceHeaders, plausible: Sequence[Positions]) -> Text:
+    x, y = headers.first_bytes["x"], headers.first_bytes["y"]
     readings = " or ".join(f"{each.spacing:.4g} apart as {each.stored}" for each in plausible)
-    return (
+    return Text(
         f"{headers.layout.path} has positions at bytes {x} and {y} that can be read in several ways: traces are "
-        f"{readings}; say which distance holds: dx="
+        f"{readings}; give the distance that is right: ",
+        Keyword("dx"),
     )
 
 
 def conflict(headers: TraceHeaders, traces: np.ndarray, own: Positions) -> str:
-    """Other positions in the trace headers that are the same but for a power of ten, in words; "" if none."""
+    """Describe other positions in the trace headers that differ only by a power of ten; "" if there are none."""
     if own.stored != INTEGERS:
         return ""
     factor = scalar_factors(headers("scalar", traces))
-    for x, y in PLACES:
-        if (x, y) == (headers.bytes["x"], headers.bytes["y"]):
+    for x, y in POSITION_BYTES:
+        if (x, y) == (headers.first_bytes["x"], headers.first_bytes["y"]):
             continue
         other = Positions(headers(x, traces) * factor, headers(y, traces) * factor, own.rounding, INTEGERS, own.scalar)
-        if _same_but_for_a_power_of_ten(own, other):
+        if _differ_by_a_power_of_ten(own, other):
             return f"bytes {x} and {y} hold the same positions, but {other.spacing:.4g} apart"
     return ""
 
 
-def _same_but_for_a_power_of_ten(own, other):
+def _differ_by_a_power_of_ten(own: Positions, other: Positions) -> bool:
     if not own.spacing or not other.spacing:
         return False
     power = np.rint(np.log10(other.spacing / own.spacing))

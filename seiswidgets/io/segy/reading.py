@@ -1,130 +1,143 @@
-"""SEG-Y in: a line, or a line of a volume, read through a window that holds no more than that line."""
+"""Reading of SEG-Y: a line, or a line of a volume, without reading more samples than that line has."""
 
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any, Unpack
 
 import numpy as np
 
 from seiswidgets.errors import DataError
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.section import Section
-from seiswidgets.io.info import HEIGHT, SectionInfo
-from seiswidgets.io.options import OpenOptions, Progress, checked_size, section_of, tell
+from seiswidgets.io.info import TIME_OR_DEPTH, SectionInfo
+from seiswidgets.io.options import (
+    LineKeywords,
+    OpenOptions,
+    Progress,
+    check_memory,
+    make_section,
+    report_progress,
+)
 from seiswidgets.io.segy.course import course, remarks, spacing
-from seiswidgets.io.segy.layout import layout
+from seiswidgets.io.segy.layout import read_layout
 from seiswidgets.io.segy.lines import line, lines_of_volume, sample_line
 from seiswidgets.io.segy.traces import TraceHeaders, checked_bytes
 from seiswidgets.io.segy.vertical import delay, interval
 
 BLOCK = 256  # traces between two reports of progress
-PREVIEWED = 10_000  # traces that a preview looks at, for their spacing
+PREVIEWED = 10_000  # traces that a preview uses to measure the spacing
 PER_MS_OR_M = {"ms": 1.0, "s": 1e-3, "m": 1.0, "km": 1e-3, "ft": 1.0}  # a depth in feet is written as if in metres
 
 
-def open_segy(path: Path, choices: OpenOptions, progress: Progress | None) -> Section:
-    """The section that a user chose of a SEG-Y file.
+def open_segy(path: Path, options: OpenOptions, progress: Progress | None) -> Section:
+    """Open the section that the options select in a SEG-Y file.
 
     Raises
     ------
     DataError
-        If the file is damaged, or does not say what was not chosen.
+        If the file is damaged, or lacks a value that was not given.
     SettingError
-        If a choice is missing, or is not to be had from this file.
+        If an option is missing, or does not apply to this file.
     """
-    choices.refuse(("extent",), "SEG-Y")
-    z_unit = choices.time_or_depth(path)
-    with trace_headers(path, choices) as headers:
-        traces = line(headers, choices, progress)
-        found = _axes(headers, traces, choices, PER_MS_OR_M.get(z_unit, 1.0))
-        amplitude = _samples(headers, traces, progress)
-    return section_of(path, amplitude, choices, **found)
+    options.refuse(("extent",), "SEG-Y")
+    z_unit = options.time_or_depth(path)
+    with open_headers(path, options) as headers:
+        traces = line(headers, options, progress)
+        axes = _axes(headers, traces, options, PER_MS_OR_M.get(z_unit, 1.0))
+        amplitude = _read_samples(headers, traces, progress)
+    return make_section(path, amplitude, options, **axes)
 
 
 @contextmanager
-def trace_headers(path: Path, choices: OpenOptions):
-    """The trace headers of a SEG-Y file, open for as long as the context lasts."""
-    found = layout(path)
-    positions = checked_bytes(choices.header_bytes)
+def open_headers(path: Path, options: OpenOptions) -> Iterator[TraceHeaders]:
+    """Open the trace headers of a SEG-Y file as a context manager."""
+    layout = read_layout(path)
+    positions = checked_bytes(options.keywords.get("header_bytes"))
     with path.open("rb", buffering=0) as file:
-        yield TraceHeaders(found, file, positions, choices.x_unit or found.x_unit or "m")
+        yield TraceHeaders(layout, file, positions, options.keywords.get("x_unit") or layout.x_unit or "m")
 
 
-def _axes(headers, traces, choices, scale):
-    """Spacing, origin and unit as the user chose, else as the headers say: z there times a scale."""
+def _axes(headers: TraceHeaders, traces: np.ndarray, options: OpenOptions, scale: float) -> dict[str, Any]:
+    """Spacing, origin and unit as given, or else as in the headers, whose z is multiplied by ``scale``."""
+    given = options.given(("dx", "dz", "x0", "z0"))
     return {
-        "dx": spacing(headers, traces) if choices.dx is None else choices.dx,
-        "dz": scale * interval(headers, traces) if choices.dz is None else choices.dz,
-        "x0": choices.x0 or 0.0,
-        "z0": scale * delay(headers, traces) if choices.z0 is None else choices.z0,
+        "dx": given["dx"] if "dx" in given else spacing(headers, traces),
+        "dz": given["dz"] if "dz" in given else scale * interval(headers, traces),
+        "x0": given.get("x0", 0.0),
+        "z0": given["z0"] if "z0" in given else scale * delay(headers, traces),
         "x_unit": headers.layout.x_unit or "m",
     }
 
 
-def _samples(headers, traces, progress):
-    """Amplitudes of some traces, as the smallest floats that hold each exactly; shape (nz, nx)."""
+def _read_samples(headers: TraceHeaders, traces: np.ndarray, progress: Progress | None) -> np.ndarray:
+    """Amplitudes of some traces, in the smallest float type that holds them exactly; shape (nz, nx)."""
     samples = headers.layout.samples
-    kind = np.result_type(headers.amplitudes(traces[0]).dtype, np.float32)
-    checked_size(headers.layout.path, (samples, len(traces)), kind.itemsize)
-    amplitude = np.empty((samples, len(traces)), kind)
+    dtype = np.result_type(headers.amplitudes(traces[0]).dtype, np.float32)
+    check_memory(headers.layout.path, (samples, len(traces)), dtype.itemsize)
+    amplitude = np.empty((samples, len(traces)), dtype)
     for start in range(0, len(traces), BLOCK):
-        for place, trace in enumerate(traces[start : start + BLOCK], start):
-            amplitude[:, place] = headers.amplitudes(trace)
-        tell(progress, min(1.0, (start + BLOCK) / len(traces)))
+        for column, trace in enumerate(traces[start : start + BLOCK], start):
+            amplitude[:, column] = headers.amplitudes(trace)
+        report_progress(progress, min(1.0, (start + BLOCK) / len(traces)))
     return amplitude
 
 
-def line_on_map(path: Path, **line_choices) -> np.ndarray:
-    """Map coordinates that the line of a SEG-Y file runs through, from its first trace on; shape (m, 2).
+def line_on_map(path: Path, **line_options: Unpack[LineKeywords]) -> np.ndarray:
+    """Map coordinates along the line of a SEG-Y file, from its first trace on; shape (m, 2).
 
     Parameters
     ----------
     path : Path
-    **line_choices
-        The line, as for ``open_section``: inline, crossline, traces, header_bytes.
+    inline, crossline, traces, header_bytes
+        The line, as for ``open_section``.
 
     Raises
     ------
     DataError, SettingError
         If there is no such line, or its positions are missing, uneven or angles.
     """
-    choices = OpenOptions(**line_choices)
-    with trace_headers(path, choices) as headers:
-        return course(headers, line(headers, choices, None))
+    options = OpenOptions(**line_options)
+    with open_headers(path, options) as headers:
+        return course(headers, line(headers, options, None))
 
 
-def preview_segy(path: Path, choices: OpenOptions) -> SectionInfo:
-    """What a SEG-Y file holds; reads its headers alone, and of a volume only some."""
-    with trace_headers(path, choices) as headers:
-        found, lines = headers.layout, lines_of_volume(headers)
-        first = (sample_line(headers) if lines else np.arange(min(PREVIEWED, found.traces)))[:PREVIEWED]
-        measured = [_measured(measure, headers, first) for measure in (spacing, interval, delay)]
-        (dx, dz, z0), reasons = zip(*measured, strict=True)
-        notes = found.notes if dx is None else (*found.notes, *remarks(headers, first, dx))
+def preview_segy(path: Path, options: OpenOptions) -> SectionInfo:
+    """Summarise a SEG-Y file; only headers are read, and of a volume only some."""
+    with open_headers(path, options) as headers:
+        layout, lines = headers.layout, lines_of_volume(headers)
+        first = (sample_line(headers) if lines else np.arange(min(PREVIEWED, layout.traces)))[:PREVIEWED]
+        (dx, dz, z0), problems = zip(
+            *(_measure(measure, headers, first) for measure in (spacing, interval, delay)), strict=True
+        )
+        doubts = layout.doubts if dx is None else (*layout.doubts, *remarks(headers, first, dx))
     return SectionInfo(
         path=path,
         kind="SEG-Y",
-        format=found.format,
+        format=layout.format,
         size=path.stat().st_size,
-        shape=(found.samples, found.traces),
+        shape=(layout.samples, layout.traces),
         needed=(
             *(["inline, crossline or traces"] if lines else []),
             *(name for name, value in (("dx", dx), ("dz", dz), ("z0", z0)) if value is None),
-            HEIGHT,
+            TIME_OR_DEPTH,
         ),
         dx=dx,
         dz=dz,
         z0=z0,
-        x_unit=None if dx is None else found.x_unit or "m",
+        x_unit=None if dx is None else layout.x_unit or "m",
         inlines=lines.get("inline"),
         crosslines=lines.get("crossline"),
-        header=found.text,
-        reasons=tuple(filter(None, reasons)),
-        notes=notes,
+        header=layout.text,
+        findings=(*(problem for problem in problems if problem is not None), *doubts),
     )
 
 
-def _measured(measure, headers, traces):
-    """A number and no reason, or none and the reason."""
+def _measure(
+    measure: Callable[[TraceHeaders, np.ndarray], float], headers: TraceHeaders, traces: np.ndarray
+) -> tuple[float | None, Finding | None]:
+    """The measured number, or a finding that says why it cannot be determined."""
     try:
-        return measure(headers, traces), ""
+        return measure(headers, traces), None
     except DataError as error:
-        return None, str(error)
+        return None, Finding("problem", error.kind or "headers", error.text)

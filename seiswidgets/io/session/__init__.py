@@ -1,1 +1,1 @@
-"""Sessions: a section's source, its picks and the plan, saved so that the work can be opened again."""
+"""Sessions: a section's source, its picks and the plan, saved so that the work can be resumed."""

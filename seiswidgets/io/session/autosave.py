@@ -1,4 +1,4 @@
-"""Sessions that save themselves: in a thread, a moment behind, the last few versions kept."""
+"""Automatic saving of sessions on a thread, keeping the last few versions."""
 
 import atexit
 import contextlib
@@ -10,19 +10,27 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
+from typing import Protocol, Self
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.files import user_path, write_whole
+from seiswidgets.io.files import user_path, write_file
 from seiswidgets.io.session.session import Session, open_session
 
 KEEP = 10
-BEHIND = 0.5  # s: edits that come so close together are saved at once
-AGAIN = 2.0  # s between two tries, while saving fails
+BEHIND = 0.5  # s: edits closer together than this are saved together
+AGAIN = 2.0  # s between two attempts, while saving fails
+
+
+class Saveable(Protocol):
+    """A `Session` or a `SessionWithSection`."""
+
+    def save(self, path: Path) -> None:
+        """Write it to a file; DataError if that fails."""
 
 
 @dataclass(frozen=True)
 class Version:
-    """A version of a session that was saved by itself.
+    """An automatically saved version of a session.
 
     Attributes
     ----------
@@ -37,51 +45,52 @@ class Version:
 
 
 class Autosave:
-    """Saves sessions as numbered files, ``<stem>.000001.json`` and on, and deletes all but the last few.
+    """Save sessions as numbered files, ``<stem>.000001.json`` and so on, and delete all but the last few.
 
-    Each is complete or not there at all. Use it in a ``with`` statement, or close it.
+    Each file is complete or does not exist. Use it in a ``with`` statement, or close it.
 
     Parameters
     ----------
     path : path
-        ``folder/name.json``; its folder must be there.
+        ``folder/name.json``; the folder must exist.
     keep : int
-        How many versions stay.
+        Number of versions to keep.
     report : callable(DataError or None), optional
-        Called from the thread with the error when saving fails, once for each message, and with None when it works
+        Called on the thread with the error when saving fails, once for each message, and with None when it works
         again.
     behind, again : float
-        Seconds from the first edit to its saving, and between two tries while saving fails.
+        Seconds from the first edit to saving it, and between two attempts while saving fails.
     """
 
     def __init__(
         self,
-        path,
+        path: str | os.PathLike,
         keep: int = KEEP,
         report: Callable[[DataError | None], None] | None = None,
         behind: float = BEHIND,
         again: float = AGAIN,
     ):
         self.path, self.keep = user_path(path), keep
-        self._report, self._behind, self._again = report or (lambda error: None), behind, again
+        self._report, self._behind, self._again = report, behind, again
         self._change = threading.Condition()
-        self._pending: Session | None = None
-        self._saved: Session | None = None
-        self._closing, self._failure = False, None
-        self._thread = threading.Thread(target=self._work, name=f"autosave {self.path.name}", daemon=True)
+        self._pending: Saveable | None = None
+        self._saved: Saveable | None = None
+        self._closing = False
+        self._failure: DataError | None = None
+        self._thread = threading.Thread(target=self._run, name=f"autosave {self.path.name}", daemon=True)
         self._thread.start()
         atexit.register(self.close)
 
     @property
-    def pending(self) -> Session | None:
-        """What is not saved yet."""
+    def pending(self) -> Saveable | None:
+        """The session that is not saved yet, if any."""
         return self._pending
 
-    def save(self, session: Session) -> None:
-        """Have a session saved soon, instead of any that is still waiting; returns at once."""
+    def save(self, session: Saveable) -> None:
+        """Save a session soon, in place of any that is still waiting; return at once."""
         with self._change:
             if self._closing:
-                raise DataError(f"{self.path} is closed and saves no more; make a new Autosave")
+                raise DataError(f"the Autosave of {self.path} is closed and saves no more; make a new one")
             self._pending = session
             self._change.notify_all()
 
@@ -98,16 +107,16 @@ class Autosave:
             self._change.notify_all()
         self._thread.join()
         atexit.unregister(self.close)
-        if self._pending is not None:
+        if self._pending is not None and self._failure is not None:
             raise self._failure
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *error):
+    def __exit__(self, *error: object) -> None:
         self.close()
 
-    def _work(self):
+    def _run(self) -> None:
         while True:
             with self._change:
                 self._change.wait_for(lambda: self._pending is not None or self._closing)
@@ -115,31 +124,32 @@ class Autosave:
                     return
                 self._change.wait_for(lambda: self._closing, self._behind if self._failure is None else self._again)
                 session, closing = self._pending, self._closing
-            self._try(session)
+            self._attempt(session)
             if closing and self._failure is not None:
                 return
 
-    def _try(self, session):
-        failure = self._written(session)
+    def _attempt(self, session: Saveable) -> None:
+        failure = self._write(session)
         with self._change:
             if failure is None and self._pending is session:
                 self._pending = None
-        told, self._failure = self._failure, failure
-        if str(failure) != str(told):
-            self._tell(failure)
+        earlier, self._failure = self._failure, failure
+        if str(failure) != str(earlier):
+            self._call_report(failure)
 
-    def _tell(self, failure):
+    def _call_report(self, failure: DataError | None) -> None:
         try:
-            self._report(failure)
+            if self._report is not None:
+                self._report(failure)
         except Exception:
-            logging.getLogger(__name__).exception("the function that autosave reports to failed")
+            logging.getLogger(__name__).exception("the function given as report= to Autosave failed")
 
-    def _written(self, session):
-        """The error that kept a session from being written, if any."""
+    def _write(self, session: Saveable) -> DataError | None:
+        """Write a session and delete old versions; return the error that prevented it, if any."""
         if session == self._saved:
             return None
         try:
-            older = numbered(self.path)
+            older = numbered_files(self.path)
             number = max(older, default=0) + 1
             session.save(self.path.with_name(f"{self.path.stem}.{number:06d}{self.path.suffix}"))
         except DataError as error:
@@ -148,28 +158,28 @@ class Autosave:
             return DataError(f"{self.path} cannot be saved: {error}")
         self._saved = session
         for old in sorted(older)[: max(0, len(older) + 1 - self.keep)]:
-            with contextlib.suppress(OSError):  # an old version that stays does no harm
+            with contextlib.suppress(OSError):  # an old version that cannot be deleted does no harm
                 older[old].unlink()
         return None
 
 
-def found(path: str | os.PathLike) -> list[Version]:
-    """The versions that an `Autosave` of that path has left and that can be opened, the newest first.
+def find_versions(path: str | os.PathLike) -> list[Version]:
+    """Find the versions that an `Autosave` has left and that can be opened, newest first.
 
-    A session that was saved under the path itself is the last of them.
+    A session that was saved under the path itself is the last one.
     """
     path, versions = user_path(path), []
-    for saved in [*(file for _, file in sorted(numbered(path).items(), reverse=True)), path]:
+    for file in [*(file for _, file in sorted(numbered_files(path).items(), reverse=True)), path]:
         try:
-            session = open_session(saved, allow_outside=True)  # the section's file is not opened yet
-            versions.append(Version(saved, datetime.fromtimestamp(saved.stat().st_mtime).astimezone(), session))
-        except OSError:  # DataError is one; or another process deleted it just now
+            session = open_session(file, allow_outside=True)  # does not open the section's file
+            versions.append(Version(file, datetime.fromtimestamp(file.stat().st_mtime).astimezone(), session))
+        except OSError:  # a DataError, or another process has just deleted it
             continue
     return versions
 
 
 def set_aside(path: str | os.PathLike) -> Path | None:
-    """A copy of the newest version, ``<stem>.before-000012.json``, that stays however much is saved; None if none is.
+    """Copy the newest version to ``<stem>.before-000012.json``, which is never deleted; None if there is no version.
 
     Raises
     ------
@@ -177,20 +187,20 @@ def set_aside(path: str | os.PathLike) -> Path | None:
         If it cannot be copied.
     """
     path = user_path(path)
-    versions = numbered(path)
+    versions = numbered_files(path)
     if not versions:
         return None
     newest = max(versions)
     copy = path.with_name(f"{path.stem}.before-{newest:06d}{path.suffix}")
     try:
-        write_whole(copy, versions[newest].read_bytes())
+        write_file(copy, versions[newest].read_bytes())
     except OSError as error:
-        raise DataError(f"{versions[newest]} cannot be set aside: {error}") from error
+        raise DataError(f"{versions[newest]} cannot be copied to {copy.name}: {error}") from error
     return copy
 
 
-def numbered(path: Path) -> dict[int, Path]:
-    """The files of the versions of a path, by their numbers."""
+def numbered_files(path: Path) -> dict[int, Path]:
+    """Files of the versions of a path, by number."""
     name = re.compile(re.escape(path.stem) + r"\.(\d{6,12})" + re.escape(path.suffix))
     try:
         matches = [(name.fullmatch(file.name), file) for file in path.parent.iterdir()]

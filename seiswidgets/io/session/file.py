@@ -1,30 +1,45 @@
-"""The file of a session: its form, and how older forms become today's. `docs/formats.md` describes it."""
+"""JSON form of a session, and migration from older versions. `docs/formats.md` describes it."""
 
 import os
 import re
+from collections.abc import Callable
 from dataclasses import asdict, fields, replace
 from pathlib import Path
 from reprlib import repr as brief
+from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
 
 from seiswidgets import __version__
-from seiswidgets.errors import DataError, SeiswidgetsError
+from seiswidgets.errors import DataError, SeiswidgetsError, Text
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.weights import Weights
-from seiswidgets.io.document import Entry, json_text, read_json, shortened
+from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
 from seiswidgets.io.session.saved_picks import SavedPick
-from seiswidgets.io.session.sources import FILE, SectionSource, relative, resolved
+from seiswidgets.io.session.sources import FILE, SectionSource, relative_path, section_path
+
+if TYPE_CHECKING:
+    from seiswidgets.io.session.session import Session
 
 FORMAT, VERSION = "seiswidgets session", 1
-ELSEWHERE = (
-    "fixed",
-    "pins",
-    "regional",
-)  # of a plan: the held point stands with the picks, the others are not used yet
+NOT_IN_PLAN = ("fixed", "pins", "regional")  # the held point is saved with the picks; the others are not supported yet
 DEEPEST = 4  # lists within lists in the choices of a source
 
+Arguments = ParamSpec("Arguments")
+Value = TypeVar("Value")
 
-def _from_version_0(old: dict) -> dict:
-    """Version 0, of the first trials: flat, of a real section by its name, without its hash."""
+
+class SessionFields(TypedDict):
+    """Fields of a `Session`."""
+
+    source: SectionSource
+    sha256: str | None
+    faults: tuple[SavedPick, ...]
+    horizons: tuple[SavedPick, ...]
+    plan: Plan
+    written_by: str
+
+
+def _from_version_0(old: dict[str, Any]) -> dict[str, Any]:
+    """Migrate version 0, of the first trials: flat, with a real section by its name, without its hash."""
     steps = old.get("steps", ["unfault", "flatten"])
     return {
         "format": FORMAT,
@@ -41,16 +56,16 @@ def _from_version_0(old: dict) -> dict:
 MIGRATIONS = {0: _from_version_0}  # from each old version to the next
 
 
-def text(session, path: Path) -> str:
-    """A session as it is written into a file of that path."""
-    return json_text(document(session, path))
+def session_as_json(session: "Session", path: Path) -> str:
+    """The content of a session's file at a path."""
+    return json_text(session_document(session, path))
 
 
-def document(session, path: Path) -> dict:
-    """A session as plain values, with paths relative to the folder of a file of that path."""
+def session_document(session: "Session", path: Path) -> dict[str, Any]:
+    """A session as plain values, with paths relative to the folder of a session's file at ``path``."""
     source = session.source
-    where = (
-        {"path": relative(_folder(path), source.name), "choices": dict(source.choices)}
+    origin: dict[str, Any] = (
+        {"path": relative_path(_folder(path), source.name), "choices": dict(source.choices)}
         if source.kind == FILE
         else {"name": source.name, "arguments": dict(source.choices)}
     )
@@ -58,52 +73,52 @@ def document(session, path: Path) -> dict:
         "format": FORMAT,
         "version": VERSION,
         "written_by": f"seiswidgets {__version__}",
-        "section": {"source": {"kind": source.kind, **where}, "sha256": session.sha256},
+        "section": {"source": {"kind": source.kind, **origin}, "sha256": session.sha256},
         "picks": {
-            "faults": [{"name": pick.name, "points": pick.pieces[0], **_looks(pick)} for pick in session.faults],
-            "horizons": [{"name": pick.name, "pieces": pick.pieces, **_looks(pick)} for pick in session.horizons],
+            "faults": [{"name": pick.name, "points": pick.pieces[0], **_style(pick)} for pick in session.faults],
+            "horizons": [{"name": pick.name, "pieces": pick.pieces, **_style(pick)} for pick in session.horizons],
             "fixed": session.fixed,
         },
-        "plan": {name: value for name, value in asdict(session.plan).items() if name not in ELSEWHERE},
+        "plan": {name: value for name, value in asdict(session.plan).items() if name not in NOT_IN_PLAN},
     }
 
 
-def _folder(path):
-    """The folder that a session's file is in, also where the path is a link to it."""
+def _folder(path: Path) -> Path:
+    """The folder of a session's file; links are followed."""
     return Path(os.path.realpath(path)).parent
 
 
-def _looks(pick):
+def _style(pick: SavedPick) -> dict[str, object]:
     return {"colour": pick.colour, "visible": pick.visible}
 
 
-def read(path: Path, allow_outside: bool) -> dict:
-    """The fields of the session in a file.
+def read_session_fields(path: Path, allow_outside: bool) -> SessionFields:
+    """Read the fields of the session in a file.
 
     Raises
     ------
     DataError
-        If it is not a session, is damaged, comes from a newer version, or leads out of its folder.
+        If it is not a session, is damaged, comes from a newer version, or its section lies outside its folder.
     """
-    return fields_of(read_json(path), allow_outside)
+    return session_fields(read_json(path), allow_outside)
 
 
-def fields_of(entry: Entry, allow_outside: bool) -> dict:
-    """The fields of the session in a document that has been parsed; errors as for `read`."""
+def session_fields(entry: Entry, allow_outside: bool) -> SessionFields:
+    """The fields of the session in a parsed document; errors as for `read_session_fields`."""
     document = _migrated(entry)
     section, picks = document["section"], document["picks"]
     return {
         "source": _source(section["source"], allow_outside),
-        "sha256": section.optional("sha256", _sha256),
+        "sha256": section.optional("sha256", _sha256, None),
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
-        "plan": replace(document.optional("plan", _plan, Plan()), fixed=picks.optional("fixed", Entry.point)),
+        "plan": replace(document.optional("plan", _plan, Plan()), fixed=picks.optional("fixed", Entry.point, None)),
         "written_by": document.optional("written_by", Entry.text, ""),
     }
 
 
-def _migrated(document):
-    """The document in today's form."""
+def _migrated(document: Entry) -> Entry:
+    """The document in the present version."""
     if document.members().get("format") != FORMAT:
         raise DataError(f'{document.path} is not a session of seiswidgets: it lacks "format": "{FORMAT}"')
     version = document["version"].value
@@ -120,29 +135,33 @@ def _migrated(document):
     return Entry(value, document.path)
 
 
-def _made(entry, make, *values, **named):
-    """What a constructor of ours makes of values; its errors get the file's name and the place."""
+def _build(
+    entry: Entry, make: Callable[Arguments, Value], *arguments: Arguments.args, **keywords: Arguments.kwargs
+) -> Value:
+    """Call a constructor; its errors are given the file's name and the location."""
     try:
-        return make(*values, **named)
+        return make(*arguments, **keywords)
     except SeiswidgetsError as error:
-        raise DataError(f"{entry.path}: {entry.place}: {shortened(str(error))}") from error
+        message = shortened(error.text)
+        text = error.text if message == error.text else Text(message)
+        raise DataError(f"{entry.full_location}: ", text, kind=error.kind, pick=error.pick) from error
 
 
-def _source(entry, allow_outside):
+def _source(entry: Entry, allow_outside: bool) -> SectionSource:
     kind = entry["kind"].text()
     if kind != FILE:
-        choices = entry.optional("arguments", _choices, {})
-        return _made(entry, SectionSource, kind, entry["name"].text(), choices)
+        arguments = entry.optional("arguments", _choices, {})
+        return _build(entry, SectionSource, kind, entry["name"].text(), arguments)
     path = entry["path"]
-    name = _made(path, resolved, _folder(path.path), path.text(), allow_outside)
-    return _made(entry, SectionSource, FILE, str(name), entry.optional("choices", _choices, {}))
+    name = _build(path, section_path, _folder(path.path), path.text(), allow_outside)
+    return _build(entry, SectionSource, FILE, str(name), entry.optional("choices", _choices, {}))
 
 
-def _choices(entry):
+def _choices(entry: Entry) -> dict[str, object]:
     return {name: _choice(entry[name], 1) for name in entry.members()}
 
 
-def _choice(entry, depth):
+def _choice(entry: Entry, depth: int) -> object:
     if depth > DEEPEST:
         raise entry.error(f"nested no more than {DEEPEST} deep")
     if isinstance(entry.value, list):
@@ -157,78 +176,69 @@ def _choice(entry, depth):
     return entry.value  # a whole number stays one
 
 
-def _sha256(entry):
+def _sha256(entry: Entry) -> str:
     if not re.fullmatch("[0-9a-f]{64}", entry.text()):
-        raise entry.error("a SHA-256, of 64 digits from 0 to f")
+        raise entry.error("a SHA-256 of 64 digits from 0 to f")
     return entry.text()
 
 
-def _faults(entry):
-    return _named(entry, lambda pick: (pick["points"].points(),))
+def _faults(entry: Entry) -> tuple[SavedPick, ...]:
+    return _picks(entry, lambda pick: (pick["points"].points(),))
 
 
-def _horizons(entry):
-    return _named(entry, lambda pick: tuple(piece.points() for piece in pick["pieces"].items()))
+def _horizons(entry: Entry) -> tuple[SavedPick, ...]:
+    return _picks(entry, lambda pick: tuple(piece.points() for piece in pick["pieces"].items()))
 
 
-def _named(entry, pieces):
-    picks = tuple(
-        _made(
-            pick,
-            SavedPick,
-            pick["name"].text(),
-            pieces(pick),
-            pick.optional("colour", Entry.text),
-            pick.optional("visible", Entry.flag, True),
-        )
-        for pick in entry.items()
-    )
-    names = set()
-    for pick, item in zip(picks, entry.items(), strict=True):
-        if pick.name in names:
-            raise item["name"].error("a name that no other has")
-        names.add(pick.name)
-    return picks
+def _picks(entry: Entry, read_pieces: Callable[[Entry], tuple[Points, ...]]) -> tuple[SavedPick, ...]:
+    picks: dict[str, SavedPick] = {}
+    for item in entry.items():
+        name = item["name"].text()
+        if name in picks:
+            raise item["name"].error("a name that no other pick has")
+        colour, visible = item.optional("colour", Entry.text, None), item.optional("visible", Entry.flag, True)
+        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible)
+    return tuple(picks.values())
 
 
-def _plan(entry):
+def _plan(entry: Entry) -> Plan:
     defaults = Plan()
-    return _made(
+    return _build(
         entry,
         Plan,
         steps=entry.optional("steps", _steps, defaults.steps),
         weights=entry.optional("weights", _weights, defaults.weights),
         solver=entry.optional("solver", Entry.text, defaults.solver),
-        spacing=entry.optional("spacing", Entry.number),
-        max_iterations=entry.optional("max_iterations", _count),
+        spacing=entry.optional("spacing", Entry.number, None),
+        max_iterations=entry.optional("max_iterations", _count, None),
     )
 
 
-def _count(entry):
+def _count(entry: Entry) -> int:
     if type(entry.value) is not int or entry.value < 1:
         raise entry.error("a whole number of 1 or more")
     return entry.value
 
 
-def _steps(entry):
+def _steps(entry: Entry) -> tuple[Step, ...]:
     return tuple(
-        _made(
+        _build(
             step,
             Step,
             step["kind"].text(),
             step.optional("picks", lambda picks: tuple(name.text() for name in picks.items()), ()),
-            step.optional("datum", Entry.number),
+            step.optional("datum", Entry.number, None),
             step.optional("on", Entry.flag, True),
         )
         for step in entry.items()
     )
 
 
-def _weights(entry):
+def _weights(entry: Entry) -> Weights:
     known = [field.name for field in fields(Weights)]
     for name in entry.members():
         if name not in known:
             raise DataError(
-                f"{entry.path}: {entry.place} has {brief(name)}, which is no weight; there are {', '.join(known)}"
+                f"{entry.full_location} has {brief(name)}, which is not a weight; the weights are {', '.join(known)}"
             )
-    return _made(entry, Weights, **{name: entry[name].number() for name in entry.members()})
+    return _build(entry, Weights, **{name: entry[name].number() for name in entry.members()})

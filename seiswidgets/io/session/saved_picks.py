@@ -1,18 +1,20 @@
-"""Picks as a session keeps them: everything that was drawn, with its looks, even what cannot be used yet."""
+"""Picks as saved in a session: everything that was drawn, with its style, even what cannot be used yet."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.picks import Fault, Horizon
-from seiswidgets.io.picks.lines import Points
+from seiswidgets.io.document import Points
 
-COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")  # nothing else gets into a page
+COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")  # nothing else may get into a page
 
 
 @dataclass(frozen=True)
 class SavedPick:
-    """A fault, of one piece, or a horizon, of any number.
+    """A fault with one piece, or a horizon with any number of pieces.
 
     Attributes
     ----------
@@ -22,14 +24,14 @@ class SavedPick:
     colour : str, optional
         "#rrggbb", or the name of a colour.
     visible : bool
-        Hidden picks are restored with all the same.
+        Hidden picks are used in the restoration all the same.
 
     Raises
     ------
     PickError
-        If the name holds half a character.
+        If the name contains an unpaired surrogate.
     SettingError
-        If the colour is neither.
+        If the colour is invalid.
     """
 
     name: str
@@ -37,18 +39,23 @@ class SavedPick:
     colour: str | None = None
     visible: bool = True
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if any("\ud800" <= letter <= "\udfff" for letter in self.name):
-            raise PickError(f"the name {self.name!r} holds half a character; rename it")
+            raise PickError(f"the name {self.name!r} contains an unpaired surrogate; rename that pick", pick=self.name)
         if self.colour is not None and not (isinstance(self.colour, str) and COLOUR.fullmatch(self.colour)):
             raise SettingError(
-                f"the colour of {self.name!r} must be #rrggbb or the name of one, but is {self.colour!r}"
+                f"the colour of {self.name!r} must be #rrggbb or the name of a colour, but is {self.colour!r}",
+                pick=self.name,
             )
 
 
-def saved(pick: Fault | Horizon, looks: dict | None = None) -> SavedPick:
-    """A pick of an interpretation, as it is saved; SettingError if it has other looks than a colour and visible."""
-    if unknown := set(looks or {}) - {"colour", "visible"}:
-        raise SettingError(f"the looks of {pick.name!r} may be colour and visible, but not {', '.join(unknown)}")
+def saved_pick(pick: Fault | Horizon, style: Mapping[str, Any] | None = None) -> SavedPick:
+    """Convert a pick of an interpretation; SettingError if its style has other keys than colour and visible."""
+    style = style or {}
+    if unknown := set(style) - {"colour", "visible"}:
+        raise SettingError(
+            f"the looks of {pick.name!r} may be colour and visible, but not {', '.join(map(str, unknown))}",
+            pick=pick.name,
+        )
     pieces = (pick.points,) if isinstance(pick, Fault) else pick.pieces
-    return SavedPick(pick.name, tuple(tuple(map(tuple, piece.tolist())) for piece in pieces), **(looks or {}))
+    return SavedPick(pick.name, tuple(tuple((x, z) for x, z in piece.tolist()) for piece in pieces), **style)

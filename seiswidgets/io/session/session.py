@@ -1,37 +1,39 @@
-"""A session: everything that a restoration was made from, in one file that makes it again."""
+"""Sessions: everything that a restoration was made from, in one file that makes it again."""
 
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
 
 from seiswidgets import __version__
-from seiswidgets.errors import DataError, PickError
+from seiswidgets.errors import DataError, Keyword, PickError
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import checked_kind
-from seiswidgets.io.document import LARGEST_OURS, check_size
-from seiswidgets.io.files import user_path, write_whole
-from seiswidgets.io.session import file
-from seiswidgets.io.session.saved_picks import SavedPick, saved
-from seiswidgets.io.session.sources import SectionSource, section_sha256
-
-Point = tuple[float, float]
+from seiswidgets.io.document import Point, check_file_size
+from seiswidgets.io.exports.sections import save_section
+from seiswidgets.io.files import user_path, write_file
+from seiswidgets.io.session.file import read_session_fields, session_as_json
+from seiswidgets.io.session.saved_picks import SavedPick, saved_pick
+from seiswidgets.io.session.sources import FILE, SectionSource, section_sha256
+from seiswidgets.signatures import strict_keywords
 
 
 @dataclass(frozen=True)
 class Session:
-    """A section's source, what was drawn on it, and the plan to restore it.
+    """A section's source, the picks drawn on it, and the plan to restore it.
 
     Parameters
     ----------
     source : SectionSource
     sha256 : str or None
-        Of the section, by `section_sha256`; None if it was not known.
+        Hash of the section, by `section_sha256`; None if unknown.
     faults, horizons : tuple of SavedPick
     plan : Plan
-        With the held point.
+        Includes the held point.
     written_by : str
         The version of seiswidgets that wrote it.
 
@@ -40,7 +42,7 @@ class Session:
     PickError
         If a fault is not one line, or two faults or two horizons have the same name.
     SettingError
-        If the source or the plan is something else.
+        If the source or the plan has the wrong type.
 
     Examples
     --------
@@ -59,16 +61,20 @@ class Session:
     plan: Plan = field(default_factory=Plan)
     written_by: str = field(default=f"seiswidgets {__version__}", compare=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         checked_kind(self.source, SectionSource, "source")
         checked_kind(self.plan, Plan, "plan")
         for picks in (self.faults, self.horizons):
             names = [pick.name for pick in picks]
             if len(set(names)) < len(names):
-                raise PickError(f"two picks are called {max(names, key=names.count)!r}; give each a name of its own")
+                name = max(names, key=names.count)
+                raise PickError(f"two picks are called {name!r}; give each a name of its own", pick=name)
         for fault in self.faults:
             if len(fault.pieces) != 1:
-                raise PickError(f"fault {fault.name!r} must be one line, but has {len(fault.pieces)}; give each a name")
+                raise PickError(
+                    f"fault {fault.name!r} must be one line, but has {len(fault.pieces)}; give each line a name",
+                    pick=fault.name,
+                )
 
     @classmethod
     def of(
@@ -78,27 +84,27 @@ class Session:
         interpretation: Interpretation,
         fixed: Point | None = None,
         plan: Plan | None = None,
-        looks: Mapping | None = None,
+        looks: Mapping[tuple[str, str], Mapping[str, Any]] | None = None,
     ) -> "Session":
-        """The session of a section that is open.
+        """Make the session of an open section.
 
         Parameters
         ----------
         section : Section
         source : SectionSource
-            Where it comes from.
+            Origin of the section.
         interpretation : Interpretation
         fixed : (x, z), optional
         plan : Plan, optional
         looks : dict, optional
-            ``{("fault", "F1"): {"colour": "#e69f00", "visible": False}, ...}``, of those picks that have any.
+            ``{("fault", "F1"): {"colour": "#e69f00", "visible": False}, ...}``, for the picks that have any.
 
         Raises
         ------
         SettingError
-            If an argument is of another kind.
+            If an argument has the wrong type.
         PickError
-            If the fixed point is none.
+            If the fixed point is not a point.
         """
         checked_kind(section, Section, "section")
         checked_kind(interpretation, Interpretation, "interpretation")
@@ -106,13 +112,13 @@ class Session:
         return cls(
             source,
             section_sha256(section),
-            tuple(saved(fault, looks.get((FAULT, fault.name))) for fault in interpretation.faults),
-            tuple(saved(horizon, looks.get((HORIZON, horizon.name))) for horizon in interpretation.horizons),
+            tuple(saved_pick(fault, looks.get((FAULT, fault.name))) for fault in interpretation.faults),
+            tuple(saved_pick(horizon, looks.get((HORIZON, horizon.name))) for horizon in interpretation.horizons),
             plan if fixed is None else replace(plan, fixed=fixed),
         )
 
     def save(self, path: str | os.PathLike) -> None:
-        """Write the session; an older file of that name stays until the new one is complete.
+        """Write the session; an existing file stays until the new one is complete.
 
         Raises
         ------
@@ -121,11 +127,11 @@ class Session:
         """
         path = user_path(path)
         try:
-            content = file.text(self, path).encode()
+            content = session_as_json(self, path).encode()
         except (TypeError, ValueError) as error:
             raise DataError(f"{path} cannot hold this session: {error}; correct its numbers") from error
-        check_size(path, content, LARGEST_OURS)
-        write_whole(path, content)
+        check_file_size(path, content)
+        write_file(path, content)
 
     @property
     def fixed(self) -> Point | None:
@@ -134,51 +140,52 @@ class Session:
 
     @property
     def interpretation(self) -> Interpretation:
-        """The picks that can be restored with."""
-        return self._usable[0]
+        """The picks that can be used in a restoration."""
+        return self._usable_picks()[0]
 
     @property
     def problems(self) -> list[str]:
-        """What is wrong with each line that cannot; it is left out."""
-        return [message for *_, message in self._usable[1]]
+        """Reason why each unusable line is left out."""
+        return [message for *_, message in self._usable_picks()[1]]
 
-    @property
-    def _usable(self):
+    def _usable_picks(self) -> tuple[Interpretation, tuple]:
         kinds = ((FAULT, self.faults), (HORIZON, self.horizons))
         return usable((kind, pick.name, pick.pieces) for kind, picks in kinds for pick in picks)
 
     def open_section(self, *, allow_changed: bool = False) -> Section:
-        """The section, from its source.
+        """Open the section from its source.
 
         Parameters
         ----------
         allow_changed : bool
-            Whether it may be another than the session was made on.
+            Whether it may differ from the section that the session was made on.
 
         Raises
         ------
         DataError
-            If it is and may not, or cannot be opened.
+            If it differs and may not, or cannot be opened.
         """
         section = self.source.open()
         if not allow_changed and self.sha256 not in (None, section_sha256(section)):
             raise DataError(
                 f"the section from {self.source.kind} {self.source.name!r} is not the one that the session was made "
-                "on: its shape, geometry or amplitudes differ; find the old one, or allow it by allow_changed=True"
+                "on: its shape, geometry or amplitudes differ; find the original one, or allow it with ",
+                Keyword("allow_changed", True),
+                kind="changed section",
             )
         return section
 
     def restore(
         self, progress: Callable[[int, int, float], bool | None] | None = None, *, allow_changed: bool = False
     ) -> Restoration:
-        """Carry the plan out once more.
+        """Run the plan on the section.
 
         Parameters
         ----------
         progress : callable(step, iteration, energy), optional
             Called after each iteration, steps counted from 0; returning False cancels.
         allow_changed : bool
-            Whether the section may be another than the session was made on.
+            Whether the section may differ from the one that the session was made on.
 
         Raises
         ------
@@ -191,8 +198,9 @@ class Session:
         return self.plan.restore(section, self.interpretation, progress=progress)
 
 
+@strict_keywords
 def open_session(path: str | os.PathLike, *, allow_outside: bool = False) -> Session:
-    """The session in a file; its section is not opened yet.
+    """Open a session's file, without opening its section yet.
 
     Parameters
     ----------
@@ -203,7 +211,40 @@ def open_session(path: str | os.PathLike, *, allow_outside: bool = False) -> Ses
     Raises
     ------
     DataError
-        If the file is damaged, comes from a newer version of seiswidgets, or leads out of its folder; the message names
-        the file, the place in it, and what to do.
+        If the file is damaged, comes from a newer version of seiswidgets, or its section lies outside its folder; the
+        message names the file, the location in it, and what to do.
     """
-    return Session(**file.read(user_path(path), allow_outside))
+    return Session(**read_session_fields(user_path(path), allow_outside))
+
+
+@dataclass(frozen=True)
+class SessionWithSection:
+    """A session of a section that comes from no file: its section is saved beside it, so that it can be opened again.
+
+    Parameters
+    ----------
+    session : Session
+        Its source names the file to save the section in, as `source_beside` does.
+    section : Section
+    """
+
+    session: Session
+    section: Section
+
+    def save(self, path: Path) -> None:
+        """Write the section, unless it is there already, and the session.
+
+        Raises
+        ------
+        DataError
+            If either cannot be written.
+        """
+        section_file = Path(self.session.source.name)
+        if not section_file.exists():
+            save_section(self.section, section_file)
+        self.session.save(path)
+
+
+def source_beside(path: Path, sha256: str) -> SectionSource:
+    """Source of a section saved beside a session's path: ``<stem>.section-<first 12 digits of its hash>.npz``."""
+    return SectionSource(FILE, str(path.with_name(f"{path.stem}.section-{sha256[:12]}.npz").absolute()))

@@ -1,11 +1,10 @@
-"""What the panel says: errors with the labels of its fields in the place of a function's keywords, and counts."""
+"""Labels of the panel's fields, which error messages show in place of keywords, and counts of picks."""
 
-import re
-
+from seiswidgets.errors import Text
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.io.session.session import Session
 
-LABELS = {
+LABELS = {  # by keyword
     "along": "x comes from",
     "crossline": "crossline",
     "dx": "traces apart",
@@ -21,20 +20,15 @@ LABELS = {
     "z_unit": "unit of z",
     "z_up": "z grows upwards",
 }
-KEYWORD = re.compile(
-    rf"(?<![\w./-])(?:({'|'.join(LABELS)})=(?:True\b|(?=[\s,.;:){{\d\x22]|$))|(dx|dz|x_unit|z0|z_unit)(?= must be ))"
-)
-VALUE = re.compile(r'[{\d"]')  # stands behind a keyword
+QUOTED = {keyword: f"“{label}”" for keyword, label in LABELS.items()}
 
 
 def in_labels(text: str) -> str:
-    """A message with “traces apart” where it says dx=, or what dx must be, and so on."""
-    return KEYWORD.sub(
-        lambda match: f"“{LABELS[match[1] or match[2]]}”" + " " * bool(VALUE.match(text, match.end())), text
-    )
+    """Render a message with “traces apart” in place of the keyword dx, and so on."""
+    return text.rendered(QUOTED) if isinstance(text, Text) else text
 
 
 def counted(picks: Interpretation | Session) -> str:
-    """How many faults and horizons there are."""
+    """Number of faults and horizons, in words."""
     faults, horizons = len(picks.faults), len(picks.horizons)
     return f"{faults} fault{'s' * (faults != 1)} and {horizons} horizon{'s' * (horizons != 1)}"

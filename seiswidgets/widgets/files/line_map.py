@@ -6,7 +6,7 @@ import numpy as np
 
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.io.opening import kind_of
-from seiswidgets.io.options import OF_SEGY
+from seiswidgets.io.options import SEGY_OPTIONS
 from seiswidgets.io.segy.reading import line_on_map
 from seiswidgets.io.session.sources import FILE, SectionSource
 
@@ -23,7 +23,7 @@ def of_segy(source: SectionSource | None) -> dict | None:
     """
     if source is None or source.kind != FILE or kind_of(source.name) != "SEG-Y":
         return None
-    return {name: value for name, value in source.keywords.items() if name in OF_SEGY}
+    return {name: value for name, value in source.keywords.items() if name in SEGY_OPTIONS}
 
 
 def segy_line(source: SectionSource | None) -> np.ndarray:

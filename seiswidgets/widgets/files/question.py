@@ -1,6 +1,6 @@
 """A question in the app, with a button for each answer."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
 
 from ipywidgets import HTML, Button, HBox, Layout, VBox, Widget
@@ -13,54 +13,54 @@ from seiswidgets.widgets.messages import HINT, TROUBLE
 
 
 class Question(VBox):
-    """A line of text, and below it the answers, as long as it is asked.
+    """A line of text with the answers to a question below it, visible while there is a text.
 
     Attributes
     ----------
     text : str
-        What is said; "" when nothing is.
+        The text shown; "" if there is none.
     """
 
     text = Unicode()
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._line, self._answers = HTML(), HBox(layout=Layout(flex_flow="row wrap"))
         super().__init__([self._line, self._answers], layout=Layout(display="none"))
 
     @property
     def answers(self) -> dict[str, Button]:
-        """The buttons, by what they say."""
+        """Buttons of the answers, by description."""
         return {one.description: one for one in self._answers.children if isinstance(one, Button)}
 
     def ask(self, text: str, answers: Mapping[str, Callable[[], None]], *before: Widget) -> None:
-        """Ask; an answer takes the question away, and then does what it says. Other controls stand before them."""
-        self._say(HINT, text, [*before, *(self._button(*answer) for answer in answers.items())])
+        """Ask a question, with other controls before its answers; an answer removes it and calls its function."""
+        self._show(HINT, text, [*before, *(self._button(*answer) for answer in answers.items())])
 
     def hint(self, text: str) -> None:
-        """Say something, in place of the question."""
-        self._say(HINT, text)
+        """Show a text in place of the question."""
+        self._show(HINT, text)
 
     def alert(self, text: str) -> None:
-        """Say what is wrong, in place of the question and in the words of the panel."""
-        self._say(TROUBLE, in_labels(text))
+        """Show an error message in place of the question, with the panel's labels in place of keywords."""
+        self._show(TROUBLE, in_labels(text))
 
     def attempt(self, action: Callable[[], None]) -> None:
-        """Do something; if that cannot be done, say why."""
+        """Call a function and show its error, if it raises one."""
         try:
             action()
         except SeiswidgetsError as error:
-            self.alert(str(error))
+            self.alert(error.text)
 
-    def _button(self, name, action):
-        def act(_):
+    def _button(self, description: str, action: Callable[[], None]) -> Button:
+        def act(_: Button) -> None:
             self.hint("")
             action()
 
-        button = Button(description=name, layout=Layout(width="auto"))
+        button = Button(description=description, layout=Layout(width="auto"))
         button.on_click(act)
         return button
 
-    def _say(self, look, text, controls=()):
+    def _show(self, look: str, text: str, controls: Sequence[Widget] = ()) -> None:
         answered = self.answers.values()
         self.text, self._line.value, self._answers.children = text, look.format(escape(text)), controls
         for button in answered:  # or ipywidgets would keep it

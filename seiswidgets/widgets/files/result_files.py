@@ -8,14 +8,15 @@ from pathlib import Path
 from ipywidgets import Button, Checkbox, GridBox, HBox, Layout, Text, VBox
 
 from seiswidgets import plot
-from seiswidgets.errors import DataError, SeiswidgetsError, SettingError
+from seiswidgets.errors import DataError, Keyword, SeiswidgetsError, SettingError
+from seiswidgets.errors import Text as Message
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.io.exports.meshes import save_mesh
 from seiswidgets.io.exports.reports import save_report
 from seiswidgets.io.exports.sections import save_section
 from seiswidgets.io.exports.xarrays import displacement
-from seiswidgets.io.files import user_path, written
+from seiswidgets.io.files import atomic_write, user_path
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.files.background_job import BackgroundJob
 from seiswidgets.widgets.files.file_names import file_name
@@ -114,7 +115,7 @@ class ResultFiles(VBox):
 
     def _write(self, result, paths, tell):
         """Write file after file, each of them whole; one that cannot be written does not keep others from it."""
-        trouble = []
+        trouble: list[str | Keyword] = []
         for count, (ending, path) in enumerate(paths.items()):
             if not tell(count / len(paths)):
                 break
@@ -123,9 +124,9 @@ class ResultFiles(VBox):
                 WRITERS[ending][1](result, path)
                 self.written = (*self.written, path)
             except SeiswidgetsError as error:
-                trouble.append(str(error))
+                trouble += [error.text, ". "]
         if trouble:
-            return partial(self.notice.alert, f"{'. '.join(trouble)}. {self._done()}".strip())
+            return partial(self.notice.alert, Message(*trouble, self._done()))
         return lambda: self.notice.hint(self._done())
 
     def _done(self):
@@ -159,13 +160,13 @@ def _write_figure(result, path):
     from matplotlib.figure import Figure  # slow to load: the app's first paint need not wait for it
 
     figure = plot.workflow(result.restoration, result.interpretation, figure=Figure())
-    with written(path) as draft:
+    with atomic_write(path) as draft:
         figure.savefig(draft, dpi=DPI)
 
 
 def _write_displacement(result, path):
     fields = displacement(result.restoration)
-    with written(path) as draft:
+    with atomic_write(path) as draft:
         fields.to_netcdf(draft)
 
 

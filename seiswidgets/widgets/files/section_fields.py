@@ -6,6 +6,7 @@ from ipywidgets import HTML, Dropdown, Layout, Text, VBox
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
+from seiswidgets.geology.findings import worst_first
 from seiswidgets.geology.section import METRES, SECONDS
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.segy.reading import PER_MS_OR_M
@@ -146,7 +147,7 @@ class SectionFields(VBox):
 
     def _said(self):
         """What is not in the file, as HTML: why not, and which fields hold no more than a usual value."""
-        reasons = "".join(REASON.format(escape(in_labels(said))) for said in (*self._info.reasons, *self._info.notes))
+        reasons = "".join(REASON.format(escape(in_labels(one.text))) for one in worst_first(self._info.findings))
         assumed = []
         if "z_unit" in self.fields:
             assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]

@@ -7,15 +7,14 @@ from weakref import WeakValueDictionary
 
 from ipywidgets import Dropdown, Layout, VBox
 
-from seiswidgets.errors import DataError, SettingError
+from seiswidgets.errors import DataError, SettingError, Text
 from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing
 from seiswidgets.io.files import user_path
-from seiswidgets.io.session.autosave import Autosave, Version, found, numbered, set_aside
+from seiswidgets.io.session.autosave import Autosave, Version, find_versions, numbered_files, set_aside
 from seiswidgets.io.session.saved_picks import SavedPick
-from seiswidgets.io.session.section_beside import SessionWithSection, source_beside
-from seiswidgets.io.session.session import Session
-from seiswidgets.io.session.sources import FILE, resolved, section_sha256
+from seiswidgets.io.session.session import Session, SessionWithSection, source_beside
+from seiswidgets.io.session.sources import FILE, section_path, section_sha256
 from seiswidgets.widgets.files.labels import counted
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.jobs import Job, JobRunner
@@ -84,10 +83,10 @@ class SessionBar(VBox):
         if path in _in_use:
             _in_use[path].give_up()
         self.workspace.session_path, _in_use[path] = path, self
-        versions = found(path)
+        versions = find_versions(path)
         if versions:
             self._offer(versions)
-        elif numbered(path):
+        elif numbered_files(path):
             self._ask(f"{path} has earlier versions, but none that can be opened. {UNSAVED}", {ANEW: self._start_anew})
         else:
             self._begin(path)
@@ -152,7 +151,7 @@ class SessionBar(VBox):
         if error is None:
             self.news.hint(f"Saved again in {self.path}.")
         else:
-            self.news.alert(f"{error}. {SAFE}")
+            self.news.alert(Text(error.text, ". ", SAFE))
 
     def _offer(self, versions):
         self.versions.options = [(_words(version), version) for version in versions]
@@ -199,7 +198,7 @@ class SessionBar(VBox):
         if source.kind != FILE:
             return False
         try:
-            resolved(self.path.parent, source.name, allow_outside=False)
+            section_path(self.path.parent, source.name, allow_outside=False)
         except DataError:
             return True
         return False
