@@ -24,11 +24,11 @@ from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.files.file_panel import FilePanel
 from seiswidgets.widgets.files.session_bar import SessionBar
 from seiswidgets.widgets.histogram import DeformationHistogram
+from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.linked_panes import LinkedPanes, Reading
 from seiswidgets.widgets.live_restoration import LiveRestoration
 from seiswidgets.widgets.names import Names
-from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList

@@ -2,14 +2,16 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import is_dataclass
+from inspect import signature
 from typing import Any
 
-from ipycanvas.canvas import _CANVAS_MANAGER
 from ipywidgets import Widget
 
 from seiswidgets.geology.validation import check_keywords
+from seiswidgets.widgets.ipycanvas_compat import CANVAS_MANAGER
 
 MOST_NESTED = 2  # containers within containers that are searched for widgets
+NOT_SETTINGS = {"settings", "traits", "children", "comm", "keys", "log"}  # a widget sets these traits by itself
 PACKAGE = __name__.rpartition(".")[0]  # its plain objects are searched for widgets too
 
 
@@ -26,8 +28,9 @@ class WithParts(Widget):
 
     @classmethod
     def check_settings(cls, settings: Mapping[str, Any]) -> None:
-        """Refuse keyword arguments that are not traits, with a SettingError that suggests the right one."""
-        check_keywords(cls.__name__, settings, (name for name in cls.class_trait_names() if not name.startswith("_")))
+        """Refuse keyword arguments that the class does not take, with a SettingError that suggests the right one."""
+        names = {*cls.class_trait_names(), *signature(cls).parameters} - NOT_SETTINGS
+        check_keywords(cls.__name__, settings, (name for name in names if not name.startswith("_")))
 
     def close(self) -> None:
         """Close this widget and all its parts; closing it again does nothing."""
@@ -48,7 +51,7 @@ def _close(close_whole: Callable[[], None], held: Iterable[Widget]) -> None:
 
 def parts(whole: Widget, borrowed: Iterable[Widget] = ()) -> list[Widget]:
     """Widgets that can be reached from one through attributes and traits, without itself and the borrowed ones."""
-    seen = {id(one) for one in (whole, _CANVAS_MANAGER, *borrowed)}  # all canvases share the manager
+    seen = {id(one) for one in (whole, CANVAS_MANAGER, *borrowed)}  # all canvases share the manager
     widgets: list[Widget] = []
     waiting: list[object] = [whole]
     while waiting:

@@ -20,9 +20,9 @@ from seiswidgets.widgets.browser_storage import BrowserStorage
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.exhibits import EXHIBITS, Exhibit
 from seiswidgets.widgets.files.question import Question
+from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.messages import HINT, TROUBLE
-from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.work import Work, observe_work
 
 LOADING = "Loading this section; the first time, it may have to be downloaded."

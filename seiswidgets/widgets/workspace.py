@@ -6,7 +6,7 @@ Views and panels read it, observe it, and send it edits; none of them keeps a co
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from traitlets import Bool, Bunch, HasTraits, Instance, observe, validate
 
@@ -86,7 +86,7 @@ class Workspace(HasTraits):
     @property
     def source(self) -> SectionSource | None:
         """Origin of the section."""
-        return cast(SectionSource | None, self.document.source)
+        return self.document.source
 
     @property
     def job(self) -> RestorationJob:

@@ -70,7 +70,7 @@ def open_section(app, tmp_path):
 
 
 EDITS = {
-    draw_fault: "finish F1",
+    draw_fault: "draw F1",
     hold: "held point",
     move_slider: "weights",
     add_step: "steps",
@@ -91,7 +91,8 @@ def test_one_of_each_edit_is_undone_and_redone(app, tmp_path):
             labels.append(app.workspace.history.next_undo.label)
             documents.append(None)
         documents[-1] = app.workspace.document
-    assert labels[-7:] == [*EDITS.values()][-7:]
+    assert labels[:2] == ["draft line", "draft line"]
+    assert labels[2:] == [*EDITS.values()]
     after = [document for document in documents if document is not None]
     assert len(set(map(id, after))) == len(EDITS) + 1
     for document, label in zip(documents[-2::-1], labels[::-1], strict=True):

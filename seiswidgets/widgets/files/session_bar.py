@@ -5,7 +5,6 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from os import PathLike
 from pathlib import Path
-from typing import cast
 from weakref import WeakValueDictionary
 
 from ipywidgets import Dropdown, Layout, VBox, Widget
@@ -275,9 +274,8 @@ def _summary(version: Version) -> str:
 
 def _to_save(document: Document, sha256: str, path: Path) -> Session | SessionWithSection:
     """Session of a document under a path; a section without a source is saved beside it."""
-    source = cast(SectionSource | None, document.source)
-    if source is not None:
-        return session_of(document, source, sha256)
+    if document.source is not None:
+        return session_of(document, document.source, sha256)
     return SessionWithSection(session_of(document, source_beside(path, sha256), sha256), document.section)
 
 

@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 
 from seiswidgets.errors import Cancelled, SeiswidgetsError
-from seiswidgets.interaction.colour import Colouring, clip_limit, resampled
+from seiswidgets.interaction.colour import Colouring, clip_limit, encode_png, resampled
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.opening import open_section
 from seiswidgets.io.options import Progress
-from seiswidgets.widgets.section_view.canvas import encoded
 
 WIDEST, HIGHEST = 360, 160  # pixels
 CLIP = 99  # percentile of the absolute amplitudes that is shown black or white
@@ -43,7 +42,7 @@ def thumbnail(info: SectionInfo, header_bytes: Mapping[str, int] | None, progres
         return ""
     size = np.minimum((WIDEST, HIGHEST), section.shape[::-1]).tolist()
     colouring = Colouring("greys", clip_limit(section, CLIP))
-    picture = encoded(colouring.levels(resampled(section.amplitude, tuple(size))), colouring.palette)
+    picture = encode_png(colouring.levels(resampled(section.amplitude, tuple(size))), colouring.palette)
     return FRAME.format(caption, b64encode(picture).decode())
 
 

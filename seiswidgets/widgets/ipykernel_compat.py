@@ -1,10 +1,14 @@
-"""Messages from the page, handled in the order in which they were sent."""
+"""The private name of ipykernel that seiswidgets relies on: the only module that uses one.
+
+ipykernel 7.4 asks ``comm._reply_subshell_for`` which thread is to handle a widget's message, and has no public way to
+choose it. A test fails when a new version asks something else.
+"""
 
 from collections.abc import Iterable
 
 from ipywidgets import Widget
 
-ROUTE = "_reply_subshell_for"  # ipykernel 7.4 calls this method to choose the thread for a widget's message
+ROUTE = "_reply_subshell_for"
 
 
 def keep_order(widget: Widget) -> None:
