@@ -82,31 +82,26 @@ EDITS = {
 
 
 def test_one_of_each_edit_is_undone_and_redone(app, tmp_path):
-    undo, redo = toolbar_button(app, "undo"), toolbar_button(app, "repeat")
+    undo, redo, history = toolbar_button(app, "undo"), toolbar_button(app, "repeat"), app.workspace.history
     assert undo.disabled
-    documents, labels = [app.workspace.document], []
-    for edit in EDITS:
+    documents, counts = [app.workspace.document], [0]
+    for edit, label in EDITS.items():
         edit(app, tmp_path)
-        while app.workspace.history.undo_count > len(labels):  # a drawn line is several edits
-            labels.append(app.workspace.history.next_undo.label)
-            documents.append(None)
-        documents[-1] = app.workspace.document
-    assert labels[:2] == ["draft line", "draft line"]
-    assert labels[2:] == [*EDITS.values()]
-    after = [document for document in documents if document is not None]
-    assert len(set(map(id, after))) == len(EDITS) + 1
-    for document, label in zip(documents[-2::-1], labels[::-1], strict=True):
+        documents.append(app.workspace.document)
+        counts.append(history.undo_count)
         assert undo.tooltip == f"undo: {label} (Ctrl+Z)"
-        undo.click()
-        assert document in (None, app.workspace.document)
+    assert (counts[1], counts[-1] - counts[1]) == (3, len(EDITS) - 1)  # the fault is drawn in three clicks
+    for index in range(len(EDITS), 0, -1):
+        for _ in range(counts[index] - counts[index - 1]):
+            undo.click()
+        assert app.workspace.document == documents[index - 1]
     assert undo.disabled
-    assert app.workspace.document == after[0]
-    for document, label in zip(documents[1:], labels, strict=True):
-        assert redo.tooltip.endswith(f": {label} (Ctrl+Y)")
-        redo.click()
-        assert document in (None, app.workspace.document)
+    assert redo.tooltip.endswith(": draft line (Ctrl+Y)")
+    for index in range(1, len(documents)):
+        for _ in range(counts[index] - counts[index - 1]):
+            redo.click()
+        assert app.workspace.document == documents[index]
     assert redo.disabled
-    assert app.workspace.document == after[-1]
     assert app.section.name == "line"
 
 
@@ -126,3 +121,12 @@ def test_an_edit_that_changes_nothing_is_no_edit(app):
     app.interpretation = app.interpretation
     app.workspace.change_plan("weights", weights=sw.Weights())
     assert app.workspace.history.undo_count == 0
+
+
+def test_undo_names_what_the_mouse_did_to_a_pick(app, tmp_path):
+    draw_fault(app, tmp_path)
+    pane, labels = app.panes.original, []
+    for points, modifiers in (([(2200.0, 700.0)], []), ([(2200.0, 700.0)], ["ctrl"]), ([(2000.0, 200.0)], ["ctrl"])):
+        click(pane, *points, modifiers=modifiers)
+        labels.append(app.workspace.history.next_undo.label)
+    assert labels == ["change F1", "change F1", "delete F1"]
