@@ -45,7 +45,7 @@ def app(new_app, case):
 
 
 def drawn_frames(app, monkeypatch):
-    """What is drawn from now on."""
+    """Snapshots drawn from now on."""
     frames, show = [], app.panes.show
 
     def noting(frame):

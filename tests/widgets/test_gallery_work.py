@@ -1,4 +1,4 @@
-"""What is done in the gallery is never lost: not by another choice, and not with the kernel."""
+"""Work in the gallery is never lost: neither by another choice, nor with the kernel."""
 
 import json
 
@@ -34,7 +34,7 @@ def receive(gallery, **content):
 
 
 def kept(gallery):
-    """What the browser has when the page goes."""
+    """Texts in the browser when the page is closed."""
     return json.loads(json.dumps(gallery.storage.kept))
 
 

@@ -79,7 +79,7 @@ def draw_fault(app, points=FAULT):
 
 
 def names(path):
-    """Of the picks in the newest version."""
+    """Names of the picks in the newest version."""
     versions = find_versions(path)
     return [pick.name for pick in (*versions[0].session.faults, *versions[0].session.horizons)] if versions else []
 

@@ -50,7 +50,7 @@ class BackgroundJob(HBox):
         end = partial(self._end, lambda finish: finish())
         fail = partial(self._end, lambda error: self._notice.alert(in_words(error)))
         stop = partial(self._end, lambda: self._notice.hint(self._cancelled()))
-        self._runner.submit(Job(lambda job: work(partial(self._report, job)), end, fail, stop))
+        self._runner.submit(Job(lambda job: work(partial(self.report, job)), end, fail, stop))
 
     def cancel(self) -> None:
         """Stop the job in progress at its next report."""
@@ -67,7 +67,8 @@ class BackgroundJob(HBox):
         """Wait until no job is in progress; False after the timeout in seconds."""
         return self._runner.wait(timeout)
 
-    def _report(self, job: Job, fraction: float) -> bool:
+    def report(self, job: Job, fraction: float) -> bool:
+        """Show the fraction done of a job; return whether it should continue."""
         if job.wanted:
             self._bar.value = fraction
         return job.wanted
