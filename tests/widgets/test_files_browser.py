@@ -15,7 +15,7 @@ from tests.widgets.byhand import is_painted
 from tests.widgets.files import line
 
 APP = """
-import os, seiswidgets as sw
+import os, time, seiswidgets as sw
 case = sw.synthetic.faulted_fold()
 app = sw.RestorationApp(case.section, session="{0}.json", source=sw.SectionSource("synthetic", "faulted_fold"),
     live=False, height=300)
