@@ -1,9 +1,11 @@
 """Validation of what users pass in: numbers, points, picks and keywords."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seiswidgets.errors import Keyword, PickError, SettingError
+from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.picks import Fault, Horizon, Pick
 from seiswidgets.geology.section import Section
 

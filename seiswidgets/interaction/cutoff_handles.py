@@ -1,38 +1,43 @@
-"""The cut-offs of a drawing, numbered, and dragged along their faults."""
+"""The numbered cut-offs of a drawing, and dragging them along their faults."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
+import shapely
 from shapely import LineString
-from shapely import Point as Place
 
 from seiswidgets.geology.cutoffs import WALLS
+from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.segments import hanging_side, horizon_segments
-from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing, PickSelection, Point
+from seiswidgets.geology.segments import HorizonSegment, hanging_side, horizon_segments
+from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection, Point, Points
 
-INTO = 1e-3  # of its length: how far into a piece a place is clear of the fault
+INSIDE = 1e-3  # share of a segment's length at which a point of it is clear of the fault
+ENDS = (0, -1)  # indices of a line's first and last point
 
 
 @dataclass(frozen=True)
 class CutOffHandle:
-    """Where a piece of a horizon ends at a fault, or is cut by it.
+    """A point at which a horizon ends at a fault, or is cut by it.
 
     Attributes
     ----------
     number : int
-        From 1; the two cut-offs of a horizon at a fault have the same.
+        From 1; the two cut-offs of a horizon at a fault share one.
     fault, horizon : str
         Their names.
     wall : {"hanging wall", "footwall"}
-        That the piece lies in.
+        Wall that the horizon's segment lies in.
     point : tuple (x, z)
         On the fault, in the section's units.
     inside : tuple (x, z)
-        A little way into the piece, clear of the fault.
-    part, place : int
-        Which of the parts that the faults leave of the horizon, and the end of it (0 or -1).
+        A point of the segment that is near the fault but clear of it.
+    segment : int
+        Index of the segment, of those into which the faults split the horizon.
+    end : {0, -1}
+        The segment's end at the fault: its first or its last point.
     """
 
     number: int
@@ -41,93 +46,120 @@ class CutOffHandle:
     wall: str
     point: Point
     inside: Point
-    part: int
-    place: int
+    segment: int
+    end: int
 
 
-def cut_offs(drawing: Drawing, section: Section) -> tuple[CutOffHandle, ...]:
-    """The cut-offs of all visible horizons at all visible faults; hidden ones keep their numbers."""
-    faults = {fault.name: fault for fault in drawing.interpretation.faults}
-    found = {}
+def cutoff_handles(drawing: Drawing, section: Section) -> tuple[CutOffHandle, ...]:
+    """Cut-offs of all visible horizons at all visible faults; hidden ones keep their numbers."""
+    faults = [fault.name for fault in drawing.interpretation.faults]
+    horizons = drawing.names(HORIZON)
+    handles: dict[tuple[str, str], list[CutOffHandle]] = {}
     for pick in drawing.picks:
         if pick.kind == HORIZON:
-            for index, part in enumerate(_parts(drawing, section, pick)):
-                for place, end in zip((0, -1), part.ends, strict=True):
-                    if end:
-                        name = list(faults)[end.fault]
-                        point, inside = (
-                            tuple(at) for at in section.from_rock([end.point, _into(part, place)]).tolist()
-                        )
-                        mark = CutOffHandle(0, name, pick.name, WALLS[end.side], point, inside, index, place)
-                        found.setdefault((name, pick.name), []).append(mark)
-    order = sorted(found, key=lambda pair: (list(faults).index(pair[0]), drawing.names(HORIZON).index(pair[1])))
-    shown = {(pick.kind, pick.name) for pick in drawing.picks if pick.visible}
+            for handle in _handles_of(drawing, section, pick, faults):
+                handles.setdefault((handle.fault, handle.horizon), []).append(handle)
+    order = sorted(handles, key=lambda pair: (faults.index(pair[0]), horizons.index(pair[1])))
+    visible = {(pick.kind, pick.name) for pick in drawing.picks if pick.visible}
     return tuple(
-        replace(mark, number=number)
+        replace(handle, number=number)
         for number, (fault, horizon) in enumerate(order, 1)
-        if (FAULT, fault) in shown and (HORIZON, horizon) in shown
-        for mark in found[fault, horizon]
+        if (FAULT, fault) in visible and (HORIZON, horizon) in visible
+        for handle in handles[fault, horizon]
     )
 
 
-def _into(part, place):
-    way = INTO * part.line.length
-    return part.line.interpolate(way if place == 0 else part.line.length - way).coords[0]
+def split_at_cutoff(drawing: Drawing, section: Section, handle: CutOffHandle) -> tuple[Drawing, PickSelection]:
+    """End a horizon's piece at a cut-off with a vertex of its own; return the drawing and that vertex.
 
-
-def parted(drawing: Drawing, section: Section, mark: CutOffHandle) -> tuple[Drawing, PickSelection]:
-    """A drawing in which the piece at a cut-off ends there with a vertex of its own, and where that is.
-
-    A piece that crosses the fault is cut in two there, one that overshoots is trimmed, and of one that ends short the
-    last vertex comes to lie on the fault.
+    A piece that crosses the fault is cut in two there, one that overshoots is trimmed, and the last vertex of one that
+    ends short is moved onto the fault.
     """
-    pick = drawing.pick(HORIZON, mark.horizon)
-    found = _parts(drawing, section, pick)
-    part = found[mark.part]
-    piece = drawing.valid_pieces(pick)[part.piece - 1]
+    pick = drawing.pick(HORIZON, handle.horizon)
+    segments = _segments(drawing, section, pick)
+    segment = segments[handle.segment]
+    piece = drawing.valid_pieces(pick)[segment.piece - 1]
     drawn = dict(zip(map(tuple, section.to_rock(pick.pieces[piece]).tolist()), pick.pieces[piece], strict=True))
-    same = [other for other in found if other.piece == part.piece]
-    lines = [_vertices(other, mark.place if other is part else None, drawn, section) for other in same]
-    number = next(number for number, other in enumerate(same) if other is part)
+    siblings = [other for other in segments if other.piece == segment.piece]
+    lines = [_vertices(other, handle.end if other is segment else None, drawn, section) for other in siblings]
+    index = next(index for index, other in enumerate(siblings) if other is segment)
+    vertex = 0 if handle.end == 0 else len(lines[index]) - 1
     pieces = [*pick.pieces[:piece], *lines, *pick.pieces[piece + 1 :]]
-    target = PickSelection(HORIZON, mark.horizon, piece + number, 0 if mark.place == 0 else len(lines[number]) - 1)
-    return drawing.with_pieces(HORIZON, mark.horizon, pieces), target
+    target = PickSelection(HORIZON, handle.horizon, piece + index, vertex)
+    return drawing.with_pieces(HORIZON, handle.horizon, pieces), target
 
 
-def slid(drawing: Drawing, section: Section, target: PickSelection, fault: str, point: Point) -> Drawing:
-    """With a vertex at the place of a fault that is nearest to a point."""
+def slide_along_fault(drawing: Drawing, section: Section, target: PickSelection, fault: str, point: Point) -> Drawing:
+    """Move a vertex to the point of a fault that is nearest to a point."""
     line = _rock_line(drawing.pick(FAULT, fault).pieces[0], section)
-    place = line.interpolate(line.project(Place(section.to_rock(point)))).coords[0]
-    return drawing.moved(target, tuple(section.from_rock(place).tolist()))
+    return drawing.with_vertex_moved(target, _in_section(_nearest(line, section.to_rock(point)), section))
 
 
 def wall_of(drawing: Drawing, section: Section, fault: str, point: Point) -> str:
-    """The wall of a fault that a point lies in."""
-    line, point = _rock_line(drawing.pick(FAULT, fault).pieces[0], section), section.to_rock(point)
-    place = line.interpolate(line.project(Place(point))).coords[0]
-    return WALLS[hanging_side(line, place, point)]
+    """Wall of a fault in which a point lies."""
+    line, rock = _rock_line(drawing.pick(FAULT, fault).pieces[0], section), section.to_rock(point)
+    return WALLS[hanging_side(line, _nearest(line, rock), rock)]
 
 
-def _vertices(part, dragged, drawn, section):
-    """The points of a part, as they were drawn; where it was extended to a fault and is dragged, its tip goes."""
-    points = list(part.line.coords)
-    for place, end in zip((0, -1), part.ends, strict=True):
+def _handles_of(drawing: Drawing, section: Section, pick: Pick, faults: list[str]) -> list[CutOffHandle]:
+    """Cut-offs of one horizon, without their numbers."""
+    return [
+        CutOffHandle(
+            number=0,
+            fault=faults[end.fault],
+            horizon=pick.name,
+            wall=WALLS[end.side],
+            point=_in_section(end.point, section),
+            inside=_in_section(_point_inside(segment, index), section),
+            segment=count,
+            end=index,
+        )
+        for count, segment in enumerate(_segments(drawing, section, pick))
+        for index, end in zip(ENDS, segment.ends, strict=True)
+        if end
+    ]
+
+
+def _point_inside(segment: HorizonSegment, end: int) -> Point:
+    share = INSIDE if end == 0 else 1 - INSIDE
+    x, z = segment.line.interpolate(share, normalized=True).coords[0]
+    return x, z
+
+
+def _vertices(
+    segment: HorizonSegment, dragged: int | None, drawn: Mapping[tuple[float, ...], Point], section: Section
+) -> Points:
+    """Points of a segment as they were drawn, without an extension to a fault; a dragged end keeps its tip instead."""
+    points = list(segment.line.coords)
+    for index, end in zip(ENDS, segment.ends, strict=True):
         if end and end.gap > 0:
-            del points[place if place != dragged else (1 if place == 0 else -2)]
-    return [drawn.get(point) or section.from_rock(point) for point in points]
+            del points[index if index != dragged else (1 if index == 0 else -2)]
+    return tuple(drawn.get(point) or _in_section(point, section) for point in points)
 
 
-def _parts(drawing, section, pick):
-    """What the faults leave of a horizon, in metres of rock."""
+def _segments(drawing: Drawing, section: Section, pick: Pick) -> list[HorizonSegment]:
+    """Segments into which the faults split a horizon, in metres of rock."""
     pieces = tuple(pick.pieces[piece] for piece in drawing.valid_pieces(pick))
     faults = tuple(fault.pieces[0] for fault in drawing.picks if fault.kind == FAULT and drawing.valid_pieces(fault))
-    return _parts_of(pieces, faults, tuple(section.metres.tolist()))
+    return _cached_segments(pieces, faults, tuple(section.metres.tolist()))
 
 
 @lru_cache(maxsize=64)  # while one horizon is dragged, the others stay as they are
-def _parts_of(pieces, faults, metres):
+def _cached_segments(pieces: Points, faults: Points, metres: Point) -> list[HorizonSegment]:
     return horizon_segments(*([LineString(np.array(line) * metres) for line in lines] for lines in (pieces, faults)))
 
 
-def _rock_line(points, section):
+def _nearest(line: LineString, point: np.ndarray) -> Point:
+    """Point of a line that is nearest to another point."""
+    x, z = line.interpolate(line.project(shapely.Point(point))).coords[0]
+    return x, z
+
+
+def _in_section(point: tuple[float, ...], section: Section) -> Point:
+    """Convert a point from metres of rock to the section's units."""
+    x, z = section.from_rock(point).tolist()
+    return x, z
+
+
+def _rock_line(points: Points, section: Section) -> LineString:
     return LineString(section.to_rock(points))

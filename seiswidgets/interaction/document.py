@@ -1,7 +1,8 @@
-"""The document that is edited, and the history that undoes and redoes every change of it."""
+"""The document that is edited, and the history that undoes and redoes its changes."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
@@ -10,7 +11,7 @@ from seiswidgets.interaction.drawing import Drawing, PickSelection
 
 @dataclass(frozen=True)
 class Document:
-    """Everything that an edit can change: a section, the picks drawn on it, and the plan to restore it.
+    """Everything that an edit can change: a section, its picks, and the plan to restore it.
 
     Attributes
     ----------
@@ -18,18 +19,18 @@ class Document:
     drawing : Drawing
     plan : Plan
     source : SectionSource or None
-        Where the section comes from; None for a section made in memory.
+        Origin of the section; None for a section made in memory.
     """
 
     section: Section
     drawing: Drawing = field(default_factory=Drawing)
     plan: Plan = field(default_factory=Plan)
-    source: object = None
+    source: Any = None  # a value to this package, which does not know files
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A document before or after an edit: what the edit was, and what was selected then."""
+    """A document before or after an edit, with the label of the edit and the selection at that time."""
 
     label: str
     document: Document
@@ -46,7 +47,7 @@ class EditHistory:
     ----------
     document : Document
     changed : callable(), optional
-        Called after each change of the document or of what can be undone.
+        Called after each change of the document or of the history.
     check : callable(Document), optional
         Called with the new document before each edit, undo and redo; it may raise to prevent it.
     """
@@ -69,7 +70,7 @@ class EditHistory:
 
     @property
     def is_settled(self) -> bool:
-        """Whether all changes are committed: no drag is in progress."""
+        """True if all changes are committed, so that no drag is in progress."""
         return self._document == self._committed
 
     @property
@@ -79,7 +80,7 @@ class EditHistory:
 
     @property
     def redo_count(self) -> int:
-        """Number of edits that can be made again."""
+        """Number of edits that can be redone."""
         return len(self._future)
 
     @property
@@ -89,45 +90,45 @@ class EditHistory:
 
     @property
     def next_redo(self) -> Entry | None:
-        """The edit that ``redo`` would make again, with the document after it; None if there is none."""
+        """The edit that ``redo`` would redo, with the document after it; None if there is none."""
         return self._future[-1] if self._future else None
 
-    def amend(self, **changes) -> None:
+    def amend(self, **changes: Any) -> None:
         """Change fields of the document without recording an edit yet."""
         self._take(replace(self._document, **changes), self._committed)
 
     def commit(self, label: str, selection: PickSelection | None = None) -> None:
-        """Record all changes since the last commit as one edit, with what was selected before it."""
+        """Record all changes since the last commit as one edit, with the selection before it."""
         if self._document != self._committed:
             self._past.append(Entry(label, self._committed, selection))
             self._future.clear()
         self._take(self._document, self._document)
 
-    def edit(self, label: str, selection: PickSelection | None = None, **changes) -> None:
-        """Change fields of the document and record the edit; no change is no edit."""
+    def edit(self, label: str, selection: PickSelection | None = None, **changes: Any) -> None:
+        """Change fields of the document and record the edit, unless nothing changes; "" derives the label."""
         document = replace(self._document, **changes)
         self._check(document)
         if document != self._committed:
-            self._past.append(Entry(label, self._committed, selection))
+            self._past.append(Entry(label or edit_label(self._committed, document), self._committed, selection))
             self._future.clear()
         self._take(document, document)
 
     def undo(self, selection: PickSelection | None = None) -> Entry | None:
-        """Undo the last edit; return what was before it, or None if there is no edit."""
+        """Undo the last edit; return the entry before it, or None if there is no edit."""
         return self._travel(self._past, self._future, selection)
 
     def redo(self, selection: PickSelection | None = None) -> Entry | None:
-        """Make the edit again that was undone last; return what is after it, or None if there is none."""
+        """Redo the edit that was undone last; return the entry after it, or None if there is none."""
         return self._travel(self._future, self._past, selection)
 
     def forget(self) -> None:
-        """Make the current document the beginning, before which nothing can be undone."""
+        """Start a new history at the current document."""
         self._past.clear()
         self._future.clear()
         self._committed = self._document
         self._changed()
 
-    def _travel(self, source, target, selection):
+    def _travel(self, source: list[Entry], target: list[Entry], selection: PickSelection | None) -> Entry | None:
         if not source:
             return None
         self._check(source[-1].document)
@@ -136,10 +137,22 @@ class EditHistory:
         self._take(entry.document, entry.document)
         return entry
 
-    def _take(self, document, committed):
+    def _take(self, document: Document, committed: Document) -> None:
         is_new = document != self._document or committed != self._committed
         if document != self._document:
             self._document = document
         self._committed = self._document if committed == self._document else committed
         if is_new:
             self._changed()
+
+
+def edit_label(before: Document, after: Document) -> str:
+    """Name the edit of picks or held point between two documents, as the tooltip of Undo shows it."""
+    if before.drawing == after.drawing:
+        return "held point"
+    old, new = ({(pick.kind, pick.name): pick for pick in one.drawing.picks} for one in (before, after))
+    changed = {key for key in old.keys() & new.keys() if old[key] != new[key]}
+    for verb, keys in (("draw", new.keys() - old.keys()), ("delete", old.keys() - new.keys()), ("change", changed)):
+        if keys:
+            return f"{verb} {', '.join(name for _, name in sorted(keys))}"
+    return "draft line"

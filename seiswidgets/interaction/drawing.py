@@ -1,24 +1,27 @@
-"""All that has been picked on a section, as one frozen value: every edit makes a new one, so that undo is exact."""
+"""All picks on a section as one frozen value: every edit makes a new one, so that undo is exact."""
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
 from seiswidgets.geology.section import Section
 
 LETTERS = {FAULT: "F", HORIZON: "H"}
-COLOURS = {  # told apart by the colour-blind, on grey and on red-white-blue
+COLOURS = {  # distinguishable for the colour-blind, on grey and on red-white-blue
     FAULT: ("#e69f00", "#f0e442", "#ff5fa2", "#c77cff", "#ffb000"),
     HORIZON: ("#00c2a8", "#56b4e9", "#7ad151", "#0072b2", "#b8de29"),
 }
 
 Point = tuple[float, float]
 Points = tuple[Point, ...]
-_usable = lru_cache(maxsize=64)(usable)  # asked for at every look at a drawing
+_usable = lru_cache(maxsize=64)(usable)  # every property of a drawing needs it
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Pick:
     colour : str
         "#rrggbb", or the name of a colour.
     visible : bool
-        Hidden picks are restored with all the same.
+        Hidden picks take part in the restoration all the same.
     """
 
     kind: str
@@ -45,7 +48,15 @@ class Pick:
 
 @dataclass(frozen=True)
 class DraftLine:
-    """The line under way, and the horizon that it is to be a piece of; without a name it becomes a new pick."""
+    """A line that is being drawn.
+
+    Attributes
+    ----------
+    kind : {"fault", "horizon"}
+    points : tuple of points (x, z)
+    name : str or None
+        Name of the pick that the line becomes a piece of; None if it becomes a new pick.
+    """
 
     kind: str
     points: Points
@@ -54,7 +65,7 @@ class DraftLine:
 
 @dataclass(frozen=True)
 class PickSelection:
-    """A pick, or a piece of it, or a vertex of that; without a name, of the line under way."""
+    """A pick, a piece of it, or a vertex of that; without a name, the draft line or a vertex of it."""
 
     kind: str
     name: str | None
@@ -64,16 +75,17 @@ class PickSelection:
 
 @dataclass(frozen=True)
 class Drawing:
-    """All picks, the line under way, and the point that is held.
+    """All picks and the draft line.
 
-    Its methods return a new one. Invalid lines (that cross themselves, say) are kept, and told of in ``problems``.
+    Its methods return a new drawing. Invalid lines, such as ones that cross themselves, are kept and listed in
+    ``problems``.
     """
 
     picks: tuple[Pick, ...] = ()
     draft: DraftLine | None = None
 
     def pick(self, kind: str, name: str) -> Pick:
-        """The pick of that kind and name; PickError if there is none."""
+        """Look up a pick by kind and name; PickError if there is none."""
         for pick in self.picks:
             if (pick.kind, pick.name) == (kind, name):
                 return pick
@@ -84,171 +96,190 @@ class Drawing:
         return tuple(pick.name for pick in self.picks if pick.kind == kind)
 
     def free_name(self, kind: str) -> str:
-        """The first of F1, F2, ... or H1, H2, ... that is not in use."""
-        taken = self.names(kind)
-        return next(name for number in range(1, len(taken) + 2) if (name := f"{LETTERS[kind]}{number}") not in taken)
+        """First of F1, F2, ... or H1, H2, ... that is not in use."""
+        names = self.names(kind)
+        return next(name for index in range(1, len(names) + 2) if (name := f"{LETTERS[kind]}{index}") not in names)
 
     def line(self, target: PickSelection) -> Points:
-        """The points of the line that a target lies on; none if there is no such line."""
+        """Points of the line that a target lies on; empty if there is no such line."""
         if target.name is None:
             return self.draft.points if self.draft else ()
         pieces = next((pick.pieces for pick in self.picks if (pick.kind, pick.name) == (target.kind, target.name)), ())
         return pieces[target.piece] if target.piece is not None and target.piece < len(pieces) else ()
 
-    def with_line(self, target: PickSelection, points) -> "Drawing":
-        """With other points on a line; a piece left with fewer than two goes, and so does a pick without pieces."""
-        points = _points(points)
+    @property
+    def draft_end(self) -> PickSelection | None:
+        """The last vertex of the draft line; None if there is no draft line."""
+        return PickSelection(self.draft.kind, None, 0, len(self.draft.points) - 1) if self.draft else None
+
+    def with_line(self, target: PickSelection, points: ArrayLike) -> "Drawing":
+        """Replace the points of a line; a piece of fewer than two points goes, and so does a pick without pieces."""
         if target.name is None:
-            return replace(self, draft=replace(self.draft, points=points) if points else None)
-        pieces = list(self.pick(target.kind, target.name).pieces)
-        pieces[target.piece : target.piece + 1] = [points] if len(points) > 1 else []
+            return self._with_draft(_points(points))
+        pieces: list[ArrayLike] = list(self.pick(target.kind, target.name).pieces)
+        index, points = target.piece or 0, _points(points)
+        pieces[index : index + 1] = [points] if len(points) > 1 else []
         return self.with_pieces(target.kind, target.name, pieces)
 
-    def with_pieces(self, kind: str, name: str, pieces) -> "Drawing":
-        """With other pieces of a pick, which goes if there are none."""
-        return self._with(kind, name, pieces=tuple(map(_points, pieces))) if pieces else self.deleted(kind, name)
+    def with_pieces(self, kind: str, name: str, pieces: Sequence[ArrayLike]) -> "Drawing":
+        """Replace the pieces of a pick; without any, the pick goes."""
+        if not pieces:
+            return self.without_pick(kind, name)
+        return self._with_changes(kind, name, pieces=tuple(map(_points, pieces)))
 
-    def moved(self, target: PickSelection, point: Point) -> "Drawing":
-        """With a vertex elsewhere."""
-        points = self.line(target)
-        return self.with_line(target, (*points[: target.vertex], point, *points[target.vertex + 1 :]))
+    def with_vertex_moved(self, target: PickSelection, point: Sequence[float]) -> "Drawing":
+        """Move a vertex to a point."""
+        return self._with_vertices(target, [point], removed=1)
 
-    def inserted(self, target: PickSelection, point: Point) -> "Drawing":
-        """With a vertex more, before the one at the target."""
-        points = self.line(target)
-        return self.with_line(target, (*points[: target.vertex], point, *points[target.vertex :]))
+    def with_vertex_inserted(self, target: PickSelection, point: Sequence[float]) -> "Drawing":
+        """Insert a vertex before the one at the target."""
+        return self._with_vertices(target, [point], removed=0)
 
-    def removed(self, target: PickSelection) -> "Drawing":
-        """Without a vertex."""
-        points = self.line(target)
-        return self.with_line(target, points[: target.vertex] + points[target.vertex + 1 :])
+    def with_vertex_removed(self, target: PickSelection) -> "Drawing":
+        """Remove a vertex."""
+        return self._with_vertices(target, [], removed=1)
 
-    def begun(self, kind: str, point: Point, name: str | None = None) -> "Drawing":
-        """With a line under way of one vertex; a horizon's name makes it a further piece of that one."""
+    def with_draft_begun(self, kind: str, point: Point, name: str | None = None) -> "Drawing":
+        """Begin a draft line at a point; with the name of a horizon, it becomes a further piece of that one."""
         return replace(self, draft=DraftLine(kind, _points([point]), name))
 
-    def extended(self, points) -> "Drawing":
-        """With more vertices at the end of the line under way."""
-        return replace(self, draft=replace(self.draft, points=self.draft.points + _points(points)))
+    def with_draft_extended(self, points: ArrayLike) -> "Drawing":
+        """Append vertices to the draft line."""
+        return self._with_draft((self.draft.points if self.draft else ()) + _points(points))
 
-    def continued(self, stretches) -> "Drawing":
-        """With the line under way led on along stretches, the first of which starts where it ends.
+    def with_draft_continued(self, stretches: Sequence[np.ndarray]) -> "Drawing":
+        """Continue the draft line along stretches, the first of which starts at its end.
 
-        A horizon is broken between two stretches: each makes a piece of its own. A fault goes straight on.
+        A horizon is broken between two stretches, so that each makes a piece of its own. A fault runs on.
         """
         first, *others = stretches
-        drawing = self.extended(first[1:])
+        drawing = self.with_draft_extended(first[1:])
         for stretch in others:
-            done, name = drawing.finished() if self.draft.kind == HORIZON else (drawing, None)
-            drawing = done.begun(HORIZON, stretch[0], name).extended(stretch[1:]) if name else drawing.extended(stretch)
+            drawing = drawing._broken_off().with_draft_extended(stretch)
         return drawing
 
-    def finished(self) -> tuple["Drawing", str | None]:
-        """With the line under way made a pick, or a piece of one; and its name.
+    def with_draft_finished(self) -> tuple["Drawing", str | None]:
+        """Turn the draft line into a pick, or a piece of one, and return the name of that too.
 
-        A line of fewer than two different points stays under way.
+        A line of fewer than two different points stays a draft, and the name is None.
         """
-        line = self.draft
-        if line is None or len(set(line.points)) < 2:
+        draft = self.draft
+        if draft is None or len(set(draft.points)) < 2:
             return self, None
-        done = replace(self, draft=None)
-        if line.name in done.names(line.kind):
-            pieces = (*done.pick(line.kind, line.name).pieces, line.points)
-            return done._with(line.kind, line.name, pieces=pieces, visible=True), line.name
-        name = self.free_name(line.kind) if line.name is None else line.name
-        return replace(done, picks=(*self.picks, Pick(line.kind, name, (line.points,), self._colour(line.kind)))), name
+        drawing = replace(self, draft=None)
+        if draft.name is not None and draft.name in drawing.names(draft.kind):
+            pieces = (*drawing.pick(draft.kind, draft.name).pieces, draft.points)
+            return drawing._with_changes(draft.kind, draft.name, pieces=pieces, visible=True), draft.name
+        name = self.free_name(draft.kind) if draft.name is None else draft.name
+        return drawing.with_pick(draft.kind, name, [draft.points]), name
 
-    def renamed(self, kind: str, name: str, new: str) -> "Drawing":
-        """With another name for a pick; a horizon given the name of another one becomes pieces of it.
+    def with_name(self, kind: str, name: str, new: str) -> "Drawing":
+        """Rename a pick; a horizon given the name of another one becomes pieces of it.
 
         Raises
         ------
         PickError
-            If the name is empty, or another fault has it.
+            If the name is empty, or if another fault has it.
         """
         pick, new = self.pick(kind, name), str(new).strip()
         if not new:
-            raise PickError(f"the name of {kind} {name!r} must not be empty")
+            raise PickError(f"the name of {kind} {name!r} must not be empty", pick=name)
         if new == name:
             return self
         if new not in self.names(kind):
-            return self._with(kind, name, name=new)._with_target(kind, name, new)
+            return self._with_changes(kind, name, name=new)._with_draft_renamed(kind, name, new)
         if kind == FAULT:
-            raise PickError(f"there is a fault called {new!r} already; give each a name of its own")
-        joined = self._with(kind, new, pieces=self.pick(kind, new).pieces + pick.pieces)
-        return joined.deleted(kind, name)._with_target(kind, name, new)
+            raise PickError(f"there is a fault called {new!r} already; give each a name of its own", pick=name)
+        joined = self._with_changes(kind, new, pieces=self.pick(kind, new).pieces + pick.pieces)
+        return joined.without_pick(kind, name)._with_draft_renamed(kind, name, new)
 
-    def recoloured(self, kind: str, name: str, colour: str) -> "Drawing":
-        """With another colour for a pick, "#rrggbb" or a name; SettingError if it is neither."""
+    def with_colour(self, kind: str, name: str, colour: str) -> "Drawing":
+        """Give a pick a colour, "#rrggbb" or a name; SettingError if it is neither."""
         if not re.fullmatch(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]+", str(colour)):
             raise SettingError(f"colour must be #rrggbb or the name of a colour, but is {colour!r}")
-        return self._with(kind, name, colour=str(colour))
+        return self._with_changes(kind, name, colour=str(colour))
 
-    def shown(self, kind: str, name: str, visible: bool = True) -> "Drawing":
-        """With a pick visible, or hidden."""
-        return self._with(kind, name, visible=bool(visible))
+    def with_visibility(self, kind: str, name: str, visible: bool) -> "Drawing":
+        """Show or hide a pick."""
+        return self._with_changes(kind, name, visible=bool(visible))
 
-    def deleted(self, kind: str, name: str) -> "Drawing":
-        """Without a pick."""
-        gone = self.pick(kind, name)
-        return replace(self, picks=tuple(pick for pick in self.picks if pick is not gone))
+    def without_pick(self, kind: str, name: str) -> "Drawing":
+        """Delete a pick."""
+        deleted = self.pick(kind, name)
+        return replace(self, picks=tuple(pick for pick in self.picks if pick is not deleted))
 
     def with_interpretation(self, interpretation: Interpretation) -> "Drawing":
-        """With the picks of an interpretation instead; those that had the same name keep their looks."""
+        """Replace the picks by those of an interpretation; picks of the same name keep their looks."""
         looks = {(pick.kind, pick.name): (pick.colour, pick.visible) for pick in self.picks}
         drawing = replace(self, picks=())
-        for kind, picks in ((FAULT, interpretation.faults), (HORIZON, interpretation.horizons)):
-            for pick in picks:
-                pieces = (pick.points,) if kind == FAULT else pick.pieces
-                drawing = drawing.with_pick(kind, pick.name, pieces, *looks.get((kind, pick.name), ()))
+        faults = [(FAULT, fault.name, (fault.points,)) for fault in interpretation.faults]
+        horizons = [(HORIZON, horizon.name, horizon.pieces) for horizon in interpretation.horizons]
+        for kind, name, pieces in (*faults, *horizons):
+            drawing = drawing.with_pick(kind, name, pieces, *looks.get((kind, name), ()))
         return drawing
 
-    def with_pick(self, kind: str, name: str, pieces, colour: str | None = None, visible: bool = True) -> "Drawing":
-        """With one more pick, in a colour of its own if none is given."""
-        new = Pick(kind, name, tuple(map(_points, pieces)), colour or self._colour(kind), visible)
+    def with_pick(
+        self, kind: str, name: str, pieces: Iterable[ArrayLike], colour: str | None = None, visible: bool = True
+    ) -> "Drawing":
+        """Add a pick, in a colour of its own if none is given."""
+        new = Pick(kind, name, tuple(map(_points, pieces)), colour or self._free_colour(kind), visible)
         return replace(self, picks=(*self.picks, new))
 
     def lies_on(self, section: Section) -> bool:
-        """Whether no pick, and no held point, lies beyond a section."""
+        """Return True if no pick reaches beyond a section."""
         points = [point for pick in self.picks for piece in pick.pieces for point in piece]
         return not points or bool(section.contains(points).all())
 
     @property
     def interpretation(self) -> Interpretation:
-        """What is finished and valid; the same object as long as the picks do not change."""
+        """Picks that are finished and valid; the same object as long as the picks do not change."""
         return self._checked[0]
 
     @property
     def problems(self) -> list[tuple[str, str]]:
-        """Name and message, for each line that is kept but cannot be used."""
+        """Name and message for each line that is kept but cannot be used."""
         return [(name, message) for _, name, _, message in self._checked[1]]
 
     def valid_pieces(self, pick: Pick) -> list[int]:
-        """Which pieces of a pick can be used, from 0."""
-        bad = {piece for kind, name, piece, _ in self._checked[1] if (kind, name) == (pick.kind, pick.name)}
-        return [piece for piece in range(len(pick.pieces)) if piece not in bad]
+        """Indices of the pieces of a pick that can be used."""
+        invalid = {piece for kind, name, piece, _ in self._checked[1] if (kind, name) == (pick.kind, pick.name)}
+        return [piece for piece in range(len(pick.pieces)) if piece not in invalid]
 
     @property
-    def _checked(self):
+    def _checked(self) -> tuple[Interpretation, tuple[tuple[str, str, int, str], ...]]:
         return _usable(tuple((pick.kind, pick.name, pick.pieces) for pick in self.picks))
 
-    def _with(self, kind, name, /, **changes):
+    def _with_vertices(self, target: PickSelection, inserted: Sequence[Sequence[float]], removed: int) -> "Drawing":
+        """Replace some vertices from the target on by others."""
+        points, vertex = self.line(target), target.vertex or 0
+        return self.with_line(target, (*points[:vertex], *inserted, *points[vertex + removed :]))
+
+    def _with_draft(self, points: Points) -> "Drawing":
+        draft = replace(self.draft, points=points) if self.draft and points else None
+        return replace(self, draft=draft)
+
+    def _broken_off(self) -> "Drawing":
+        """Make the draft line of a horizon a piece, and begin another without points; a fault stays a draft."""
+        name = None
+        if self.draft and self.draft.kind == HORIZON:
+            drawing, name = self.with_draft_finished()
+        return self if name is None else replace(drawing, draft=DraftLine(HORIZON, (), name))
+
+    def _with_changes(self, kind: str, name: str, /, **changes: Any) -> "Drawing":
         old = self.pick(kind, name)
         return replace(self, picks=tuple(replace(old, **changes) if pick is old else pick for pick in self.picks))
 
-    def _with_target(self, kind, name, new):
-        line = self.draft
-        return (
-            self
-            if line is None or (line.kind, line.name) != (kind, name)
-            else replace(self, draft=replace(line, name=new))
-        )
+    def _with_draft_renamed(self, kind: str, name: str, new: str) -> "Drawing":
+        draft = self.draft
+        if draft is None or (draft.kind, draft.name) != (kind, name):
+            return self
+        return replace(self, draft=replace(draft, name=new))
 
-    def _colour(self, kind):
-        """The colour least used so far."""
+    def _free_colour(self, kind: str) -> str:
+        """Colour used least so far."""
         used = [pick.colour for pick in self.picks]
         return min(COLOURS[kind], key=used.count)
 
 
-def _points(points):
+def _points(points: ArrayLike) -> Points:
     return tuple((float(x), float(z)) for x, z in np.asarray(points, float).reshape(-1, 2).tolist())

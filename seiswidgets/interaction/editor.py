@@ -7,7 +7,7 @@ the one that is selected.
 Click                  fault, horizon: adds a vertex to the draft line, or begins one. Begun while a horizon is
                        selected, it becomes a further piece of that one. Look: selects. Block: sets the held point;
                        on the point, removes it
-Click on a line        inserts a vertex, if no line is under way
+Click on a line        inserts a vertex, if there is no draft line
 Drag                   moves a vertex; of a cut-off, the end of the piece along the fault. Horizon vertices snap
 Shift                  while clicking: begins a line whatever lies there. While dragging: no snapping, and off the fault
 Ctrl-click             removes a vertex
@@ -35,8 +35,8 @@ import numpy as np
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.interaction.cutoff_handles import CutOffHandle, cut_offs
-from seiswidgets.interaction.document import EditHistory
+from seiswidgets.interaction.cutoff_handles import CutOffHandle, cutoff_handles
+from seiswidgets.interaction.document import EditHistory, Entry
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Point
 from seiswidgets.interaction.editor_state import MODES, EditorState, Tools
 from seiswidgets.interaction.gestures import DoubleClick, Gesture, Key, Move, Press, Release
@@ -44,8 +44,6 @@ from seiswidgets.interaction.keyboard import press_key
 from seiswidgets.interaction.mouse import CTRL, double_click, move, press, release
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
-
-PICKS_EDIT = "edit of the picks"
 
 
 class PickEditor:
@@ -57,7 +55,7 @@ class PickEditor:
     ----------
     history : EditHistory
     viewport : Viewport
-        Of the present-day section; set it anew when it changes.
+        View of the present-day section; set it whenever it changes.
     snap, follow : optional
         As for `Tools`; may be set.
     """
@@ -76,7 +74,7 @@ class PickEditor:
 
     @property
     def state(self) -> EditorState:
-        """The document as it is now, with the mode, the selection, the cursor and the drag."""
+        """The present document with the mode, the selection, the cursor and the drag."""
         document = self.history.document
         return self._state if document is self._state.document else self._state.change(document=document)
 
@@ -103,10 +101,10 @@ class PickEditor:
 
     def cutoffs(self) -> tuple[CutOffHandle, ...]:
         """Cut-offs of visible horizons at visible faults."""
-        return cut_offs(self.drawing, self.history.document.section)
+        return cutoff_handles(self.drawing, self.history.document.section)
 
     def handle(self, gesture: Gesture) -> bool:
-        """Do what a gesture asks; return whether it was consumed. If not, the pane may pan, fit, or pass it on."""
+        """Handle a gesture; return False if it was not consumed, so that the pane may pan, fit, or pass it on."""
         match gesture:
             case Key():
                 return self._handle_key(gesture)
@@ -134,7 +132,7 @@ class PickEditor:
         return self._travel(self.history.undo)
 
     def redo(self) -> bool:
-        """Make the edit again that was undone last; False if there is none."""
+        """Redo the edit that was undone last; False if there is none."""
         return self._travel(self.history.redo)
 
     def add(self, point: Point) -> None:
@@ -158,35 +156,35 @@ class PickEditor:
         self._become(self.state.change(selection=None))
 
     def rename(self, kind: str, name: str, new: str) -> None:
-        """Rename a pick; a horizon given the name of another becomes pieces of it. PickError if that cannot be."""
-        self._draw(f"rename {name}", self.drawing.renamed(kind, name, new), PickSelection(kind, str(new).strip()))
+        """Rename a pick; a horizon given the name of another becomes pieces of it. PickError if that fails."""
+        self._draw(f"rename {name}", self.drawing.with_name(kind, name, new), PickSelection(kind, str(new).strip()))
 
     def recolour(self, kind: str, name: str, colour: str) -> None:
-        """Give a pick a colour, "#rrggbb" or a name."""
-        self._draw(f"colour of {name}", self.drawing.recoloured(kind, name, colour))
+        """Give a pick a colour, "#rrggbb" or the name of one."""
+        self._draw(f"colour of {name}", self.drawing.with_colour(kind, name, colour))
 
     def show(self, kind: str, name: str, visible: bool = True) -> None:
-        """Show a pick, or hide it."""
-        self._draw(f"{'show' if visible else 'hide'} {name}", self.drawing.shown(kind, name, visible))
+        """Show or hide a pick."""
+        self._draw(f"{'show' if visible else 'hide'} {name}", self.drawing.with_visibility(kind, name, visible))
 
     def delete(self, kind: str, name: str) -> None:
         """Delete a pick; undo brings it back."""
-        self._draw(f"delete {name}", self.drawing.deleted(kind, name))
+        self._draw(f"delete {name}", self.drawing.without_pick(kind, name))
 
     def load(self, interpretation: Interpretation) -> None:
-        """Replace the finished picks by those of an interpretation; the one shown already changes nothing."""
+        """Replace the finished picks by those of an interpretation, unless it is shown already."""
         if interpretation is not self.interpretation:
             self.settle()
             self._draw("new picks", self.drawing.with_interpretation(interpretation))
 
     def hold(self, point: Point | None) -> None:
-        """Hold the block that a point lies in, or none."""
+        """Hold the block that a point lies in; with None, hold no block."""
         if point != self.state.fixed:
             self.settle()
             self._become(self.state.hold(None if point is None else self._tools.inside(point)), "held point")
 
     def reset(self) -> None:
-        """Drop the selection, the cursor and the drag, as for another document."""
+        """Drop the selection, the cursor and the drag, as when another document is opened."""
         self._state = EditorState(self.history.document, self._state.mode).change()
 
     def settle(self) -> None:
@@ -195,10 +193,10 @@ class PickEditor:
             self._become(self.state.settle())
 
     @property
-    def _tools(self):
+    def _tools(self) -> Tools:
         return Tools(self.viewport, self.snap, self.follow)
 
-    def _handle_key(self, gesture):
+    def _handle_key(self, gesture: Key) -> bool:
         name, modifiers = gesture.name.lower(), gesture.modifiers
         if gesture.name != "Escape":
             self.settle()
@@ -207,18 +205,18 @@ class PickEditor:
             return True  # even where there is nothing to undo, or the notebook would undo something of its own
         return self._become(press_key(self.state, gesture, self._tools))
 
-    def _handle_release(self, gesture):
+    def _handle_release(self, gesture: Release) -> bool:
         consumed = self._become(release(self.state, gesture, self._tools))
         if gesture.cancelled and not consumed and self.history.document is not self._before_press:
             self.undo()
         return consumed
 
-    def _draw(self, label, drawing, selection=None):
+    def _draw(self, label: str, drawing: Drawing, selection: PickSelection | None = None) -> None:
         self.settle()
         self._become(self.state.draw(drawing, selection or self.state.selection), label)
 
-    def _become(self, state, label=PICKS_EDIT):
-        """Take on a state, and record it as an edit unless it is in the middle of a drag; False if there is none."""
+    def _become(self, state: EditorState | None, label: str = "") -> bool:
+        """Change to a state, and record an edit unless a drag is in progress; False if there is no new state."""
         if state is None:
             return False
         before = self.state
@@ -231,7 +229,7 @@ class PickEditor:
             self.history.edit(label, selection, **changes)
         return True
 
-    def _travel(self, travel):
+    def _travel(self, travel: Callable[[PickSelection | None], Entry | None]) -> bool:
         self.settle()
         entry = travel(self.state.selection)
         if entry is None:

@@ -2,11 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.interaction.document import Document
-from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing, PickSelection, Point, Points
+from seiswidgets.interaction.drawing import Drawing, PickSelection, Point, Points
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
 
@@ -32,15 +35,15 @@ class Drag:
     fault : str or None
         Name of the fault that a cut-off slides along.
     moves : bool
-        Whether the pointer has left its starting position; a click does not move anything.
+        True once the pointer has left its starting position; a click does not move anything.
     """
 
     target: PickSelection
     before: Drawing
     selection: PickSelection | None
     base: Drawing
-    pixel: tuple[float, float]
-    last: tuple[float, float]
+    pixel: Point
+    last: Point
     fault: str | None = None
     moves: bool = False
 
@@ -63,13 +66,13 @@ class Tools:
     snap: Callable[[Point], Point] | None = None
     follow: Callable[[Point, Point], np.ndarray] | None = None
 
-    def placed(self, point: Point, kind: str, *, free: bool = False) -> Point:
-        """Position of a new vertex: inside the section, and for a horizon on its event unless ``free``."""
+    def place_vertex(self, point: Point, kind: str, *, free: bool = False) -> Point:
+        """Return the position of a new vertex: inside the section, and for a horizon on its event unless ``free``."""
         point = self.inside(point)
         return self.inside(self.snap(point)) if kind == HORIZON and self.snap and not free else point
 
-    def inside(self, point: Point) -> Point:
-        """Nearest point of the section."""
+    def inside(self, point: ArrayLike) -> Point:
+        """Return the nearest point of the section."""
         x_min, x_max, z_min, z_max = self.viewport.section.extent
         x, z = np.clip(point, (x_min, z_min), (x_max, z_max)).tolist()
         return x, z
@@ -83,7 +86,7 @@ class EditorState:
     ----------
     document : Document
     mode : {"look", "fault", "horizon", "block"}
-        That of the draft line, if there is one.
+        If there is a draft line, its kind.
     selection : PickSelection or None
         A pick, a piece of it, or one vertex of that or of the draft line.
     cursor : (x, z) or None
@@ -107,8 +110,8 @@ class EditorState:
         """The held point."""
         return self.document.plan.fixed
 
-    def change(self, **changes) -> "EditorState":
-        """Change fields, and what must follow: the mode of a draft line, and a selection that exists."""
+    def change(self, **changes: Any) -> "EditorState":
+        """Change fields, then make the mode that of the draft line, and reduce the selection to what exists."""
         state = replace(self, **changes)
         draft = state.drawing.draft
         mode = draft.kind if draft else state.mode
@@ -120,7 +123,7 @@ class EditorState:
         return self.change(document=replace(self.document, drawing=drawing), selection=selection)
 
     def hold(self, point: Point | None) -> "EditorState":
-        """Hold the block that a point lies in, or none."""
+        """Hold the block that a point lies in; with None, hold no block."""
         return self.change(document=replace(self.document, plan=replace(self.document.plan, fixed=point)))
 
     def settle(self) -> "EditorState":
@@ -140,25 +143,24 @@ class EditorState:
     ) -> "EditorState":
         """Add a vertex to the draft line, or begin one; ``free`` of snapping and following."""
         draft = self.drawing.draft
-        point = tools.placed(point, self.mode, free=free)
+        point = tools.place_vertex(point, self.mode, free=free)
         if draft is None:
             chosen = self.selection
             name = chosen.name if self.mode == HORIZON and chosen and chosen.kind == HORIZON else None
-            drawing = self.drawing.begun(self.mode, point, name)
+            drawing = self.drawing.with_draft_begun(self.mode, point, name)
         elif point == draft.points[-1]:
             return self
         elif self.mode == HORIZON and tools.follow and not free:
-            drawing = self.drawing.extended(tools.follow(draft.points[-1], point)[1:])
+            drawing = self.drawing.with_draft_extended(tools.follow(draft.points[-1], point)[1:])
         else:
-            drawing = self.drawing.continued(projection.path(draft.points[-1], point))
-        last = len(drawing.draft.points) - 1
-        return self.draw(drawing, PickSelection(self.mode, None, 0, last) if select else None)
+            drawing = self.drawing.with_draft_continued(projection.path(draft.points[-1], point))
+        return self.draw(drawing, drawing.draft_end if select else None)
 
     def finish(self) -> "EditorState":
         """Turn the draft line into a pick, or a piece of one, and select it; a single point stays a draft."""
         draft = self.drawing.draft
-        drawing, name = self.drawing.finished()
-        if name is None:
+        drawing, name = self.drawing.with_draft_finished()
+        if draft is None or name is None:
             return self
         return self.draw(drawing, PickSelection(draft.kind, name, len(drawing.pick(draft.kind, name).pieces) - 1))
 
@@ -166,17 +168,19 @@ class EditorState:
         """Drop the draft line."""
         draft = self.drawing.draft
         exists = draft is not None and draft.name in self.drawing.names(draft.kind)
-        selection = PickSelection(draft.kind, draft.name) if exists else None
+        selection = PickSelection(draft.kind, draft.name) if draft and exists else None
         return self.draw(replace(self.drawing, draft=None), selection)
 
     def remove_vertex(self, target: PickSelection) -> "EditorState":
         """Remove a vertex and select the one before it; the only vertex of the draft line cancels that line."""
         if target.name is None and len(self.drawing.line(target)) == 1:
             return self.cancel()
-        return self.draw(self.drawing.removed(target), replace(target, vertex=max(0, target.vertex - 1)))
+        return self.draw(
+            self.drawing.with_vertex_removed(target), replace(target, vertex=max(0, (target.vertex or 0) - 1))
+        )
 
     def editable_lines(self) -> list[tuple[PickSelection, Points]]:
-        """Lines whose vertices can be dragged in the present mode."""
+        """Return the lines whose vertices can be dragged in the present mode."""
         draft = self.drawing.draft
         if draft:
             return [(PickSelection(draft.kind, None, 0), draft.points)]

@@ -1,14 +1,15 @@
-"""Gestures as plain values, in present-day coordinates, and hit tests for what lies under them."""
+"""Gestures as plain values, in present-day coordinates, and hit tests for them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from seiswidgets.interaction.projection import PaneProjection
 
-REACH = 8.0  # css pixels within which a press takes hold of something
-SUBDIVISIONS = 8  # of a segment, for panes in which straight lines look bent
+REACH = 8.0  # css pixels within which a press hits something
+SUBDIVISIONS = 8  # per segment, for panes in which straight lines look bent
 
 ToPixels = Callable[[np.ndarray], np.ndarray]
 
@@ -36,7 +37,7 @@ class Press:
     pixel: tuple[float, float]
     projection: PaneProjection
     button: int = 0
-    modifiers: frozenset = frozenset()
+    modifiers: frozenset[str] = frozenset()
     reach: float = REACH
 
 
@@ -47,7 +48,7 @@ class Move:
     point: tuple[float, float]
     pixel: tuple[float, float]
     projection: PaneProjection
-    modifiers: frozenset = frozenset()
+    modifiers: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +58,7 @@ class Release:
     point: tuple[float, float]
     pixel: tuple[float, float]
     projection: PaneProjection
-    modifiers: frozenset = frozenset()
+    modifiers: frozenset[str] = frozenset()
     cancelled: bool = False
 
 
@@ -68,7 +69,7 @@ class DoubleClick:
     point: tuple[float, float]
     pixel: tuple[float, float]
     projection: PaneProjection
-    modifiers: frozenset = frozenset()
+    modifiers: frozenset[str] = frozenset()
     reach: float = REACH
 
 
@@ -78,13 +79,13 @@ class Key:
 
     name: str
     projection: PaneProjection
-    modifiers: frozenset = frozenset()
+    modifiers: frozenset[str] = frozenset()
 
 
 Gesture = Press | Move | Release | DoubleClick | Key
 
 
-def vertex_under(event: Press | DoubleClick, points, to_pixels: ToPixels) -> tuple[int, float] | None:
+def vertex_under(event: Press | DoubleClick, points: ArrayLike, to_pixels: ToPixels) -> tuple[int, float] | None:
     """Index of the nearest point and its distance in css pixels; None if no point is within reach."""
     distances = np.hypot(*(_pixels(points, to_pixels) - event.pixel).T)
     nearest = int(np.argmin(distances)) if len(distances) else 0
@@ -92,7 +93,7 @@ def vertex_under(event: Press | DoubleClick, points, to_pixels: ToPixels) -> tup
 
 
 def line_under(
-    event: Press | DoubleClick, points, to_pixels: ToPixels
+    event: Press | DoubleClick, points: ArrayLike, to_pixels: ToPixels
 ) -> tuple[int, tuple[float, float], float] | None:
     """Nearest point on a line, if it is within reach of a press.
 
@@ -104,11 +105,11 @@ def line_under(
     distance : float
         In css pixels.
     """
-    points = np.asarray(points, float)
-    if len(points) < 2:
+    line = np.asarray(points, float)
+    if len(line) < 2:
         return None
-    parameters = np.linspace(0, len(points) - 1, SUBDIVISIONS * (len(points) - 1) + 1)
-    pixels = _pixels(_interpolated(points, parameters), to_pixels)
+    parameters = np.linspace(0, len(line) - 1, SUBDIVISIONS * (len(line) - 1) + 1)
+    pixels = _pixels(_interpolated(line, parameters), to_pixels)
     start, arm = pixels[:-1], np.diff(pixels, axis=0)
     lengths = np.where((arm**2).sum(axis=1) > 0, (arm**2).sum(axis=1), 1.0)
     share = np.clip(((event.pixel - start) * arm).sum(axis=1) / lengths, 0, 1)
@@ -117,17 +118,17 @@ def line_under(
     if not distances[nearest] <= event.reach:
         return None
     parameter = parameters[nearest] + share[nearest] / SUBDIVISIONS
-    x, z = _interpolated(points, np.array([parameter]))[0]
-    return min(int(parameter) + 1, len(points) - 1), (float(x), float(z)), float(distances[nearest])
+    x, z = _interpolated(line, np.array([parameter]))[0]
+    return min(int(parameter) + 1, len(line) - 1), (float(x), float(z)), float(distances[nearest])
 
 
-def _interpolated(points, parameters):
+def _interpolated(points: np.ndarray, parameters: np.ndarray) -> np.ndarray:
     """Points of a line at fractional vertex indices."""
     index = np.arange(len(points))
     return np.column_stack([np.interp(parameters, index, points[:, 0]), np.interp(parameters, index, points[:, 1])])
 
 
-def _pixels(points, to_pixels):
-    """Pixels of points; those that are not shown lie infinitely far away."""
+def _pixels(points: ArrayLike, to_pixels: ToPixels) -> np.ndarray:
+    """Pixels of points; those that the pane does not show are put very far away."""
     pixels = np.asarray(to_pixels(np.reshape(np.asarray(points, float), (-1, 2))), float)
     return np.where(np.isfinite(pixels).all(axis=1, keepdims=True), pixels, 1e12)

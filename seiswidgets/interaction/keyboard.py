@@ -1,25 +1,27 @@
 """Transitions of the editor for keys; the table of keys is at the top of `editor`.
 
-Each function returns the new state, or None if the key means nothing to the editor, so that the pane may use it.
+Each function returns the new state, or None if the editor has no use for the key, so that the pane may use it.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from seiswidgets.interaction.drawing import FAULT, HORIZON, PickSelection
+from seiswidgets.geology.picks import FAULT, HORIZON
+from seiswidgets.interaction.drawing import PickSelection, Point
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, EditorState, Tools
 from seiswidgets.interaction.gestures import Key
 from seiswidgets.interaction.mouse import CTRL, abandon_drag
 
 STRIDE = 8.0  # css pixels that the keyboard cursor moves at least
-FAST = 10  # times as far with Shift
+FAST = 10  # factor on that with Shift
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
 MODE_KEYS = {"l": LOOK, "f": FAULT, "h": HORIZON, "b": BLOCK}
 
 
 def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
-    """Do what a key asks."""
+    """Handle a key."""
     if event.name == "Escape":
         return _escape(state)
     if "alt" in event.modifiers:
@@ -34,7 +36,7 @@ def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | Non
     return None if mode is None else state.enter(mode)
 
 
-def _escape(state):
+def _escape(state: EditorState) -> EditorState | None:
     if state.drag:
         return abandon_drag(state)
     if state.drawing.draft:
@@ -44,28 +46,28 @@ def _escape(state):
     return state.enter(LOOK) if state.mode != LOOK else None
 
 
-def _arrow(state, event, tools):
+def _arrow(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     """Nudge the selected vertex, or move the keyboard cursor."""
-    target, viewport = state.selection, tools.viewport
+    target, viewport = _selected_vertex(state), tools.viewport
     direction = np.array(ARROWS[event.name])
     cell = np.array([viewport.section.dx, viewport.section.dz])
     fast = FAST if "shift" in event.modifiers else 1
-    if target is not None and target.vertex is not None:
-        point = tools.inside(state.drawing.line(target)[target.vertex] + direction * cell * fast)
-        return state.draw(state.drawing.moved(target, point), target)
+    if target is not None:
+        point = tools.inside(_vertex_point(state, target) + direction * cell * fast)
+        return state.draw(state.drawing.with_vertex_moved(target, point), target)
     if state.mode == LOOK:
         return None
     stride = 1 if event.modifiers & CTRL else fast * np.maximum(1, np.ceil(STRIDE * viewport.pixel / cell))
     return state.change(cursor=tools.inside(_cursor(state, tools) + direction * cell * stride))
 
 
-def _cursor(state, tools):
-    """Position of the keyboard cursor, or where it starts: the selected vertex, the last one, the window's middle."""
-    section, target, draft = tools.viewport.section, state.selection, state.drawing.draft
+def _cursor(state: EditorState, tools: Tools) -> Point:
+    """Position of the keyboard cursor; at first the selected vertex, the draft's last one, or the window's middle."""
+    section, target, draft = tools.viewport.section, _selected_vertex(state), state.drawing.draft
     if state.cursor is not None:
         return state.cursor
-    if target is not None and target.vertex is not None:
-        return state.drawing.line(target)[target.vertex]
+    if target is not None:
+        return _vertex_point(state, target)
     if draft:
         return draft.points[-1]
     origin, cell = (section.x0, section.z0), (section.dx, section.dz)
@@ -73,7 +75,7 @@ def _cursor(state, tools):
     return tools.inside(np.round(middle) * cell + origin)
 
 
-def _enter(state, event, tools):
+def _enter(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     """Show the cursor, put a vertex at it, or finish the draft line."""
     draft = state.drawing.draft
     if state.mode == LOOK:
@@ -86,46 +88,64 @@ def _enter(state, event, tools):
     return _put(state, event, tools)
 
 
-def _space(state, event, tools):
+def _space(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     return None if state.cursor is None else _put(state, event, tools)
 
 
-def _put(state, event, tools):
+def _put(state: EditorState, event: Key, tools: Tools) -> EditorState:
     """Put a vertex, or the held point, at the keyboard cursor."""
+    cursor = _cursor(state, tools)
     if state.mode == BLOCK:
-        return state.hold(None if state.fixed == state.cursor else state.cursor)
-    added = state.add(state.cursor, tools, event.projection, select=False)
-    return added.change(cursor=added.drawing.draft.points[-1])
+        return state.hold(None if state.fixed == cursor else cursor)
+    added = state.add(cursor, tools, event.projection, select=False)
+    return added.change(cursor=added.drawing.draft.points[-1] if added.drawing.draft else cursor)
 
 
-def _delete(state, event, tools):
-    target, draft = state.selection, state.drawing.draft
-    if target is not None and target.vertex is not None:
-        return state.remove_vertex(target)
-    if draft:
-        removed = state.remove_vertex(PickSelection(draft.kind, None, 0, len(draft.points) - 1))
+def _delete(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
+    vertex, draft_end = _selected_vertex(state), state.drawing.draft_end
+    if vertex is not None:
+        return state.remove_vertex(vertex)
+    if draft_end is not None:
+        removed = state.remove_vertex(draft_end)
         return removed.change(selection=None) if removed.drawing.draft else removed
-    if target is not None and target.piece is not None and state.mode in (LOOK, target.kind):
+    if state.mode == BLOCK and state.fixed is not None:
+        return state.hold(None)
+    return _delete_selected(state)
+
+
+def _delete_selected(state: EditorState) -> EditorState | None:
+    """Delete the selected piece, or in look mode the selected pick."""
+    target = state.selection
+    if target is None or target.name is None or state.mode not in (LOOK, target.kind):
+        return None
+    if target.piece is not None:
         chosen = None if state.mode == LOOK else PickSelection(target.kind, target.name)
         return state.draw(state.drawing.with_line(target, []), chosen)
-    if target is not None and state.mode == LOOK:
-        return state.draw(state.drawing.deleted(target.kind, target.name), target)
-    return state.hold(None) if state.mode == BLOCK and state.fixed is not None else None
+    return state.draw(state.drawing.without_pick(target.kind, target.name)) if state.mode == LOOK else None
 
 
-def _insert(state, event, tools):
+def _insert(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     """Insert a vertex halfway from the selected one to the next, or to the one before if it is the last."""
-    target = state.selection
-    points = state.drawing.line(target) if target is not None and target.vertex is not None else ()
-    if len(points) < 2:
+    target = _selected_vertex(state)
+    points = state.drawing.line(target) if target is not None else ()
+    if target is None or len(points) < 2:
         return None
-    after = min(target.vertex + 1, len(points) - 1)
+    after = min((target.vertex or 0) + 1, len(points) - 1)
     new = replace(target, vertex=after)
-    return state.draw(state.drawing.inserted(new, np.mean(points[after - 1 : after + 1], axis=0)), new)
+    return state.draw(state.drawing.with_vertex_inserted(new, np.mean(points[after - 1 : after + 1], axis=0)), new)
 
 
-def _select_vertex(state, step):
-    """Select the vertex after (1) or before (-1) the selected one, of all that can be changed now."""
+def _selected_vertex(state: EditorState) -> PickSelection | None:
+    """Return the selection if it is a vertex."""
+    return state.selection if state.selection is not None and state.selection.vertex is not None else None
+
+
+def _vertex_point(state: EditorState, target: PickSelection) -> Point:
+    return state.drawing.line(target)[target.vertex or 0]
+
+
+def _select_vertex(state: EditorState, step: int) -> EditorState | None:
+    """Select the next (``step`` 1) or previous (-1) of the vertices that can be changed now."""
     targets = [
         replace(target, vertex=vertex) for target, points in state.editable_lines() for vertex in range(len(points))
     ]
@@ -136,7 +156,7 @@ def _select_vertex(state, step):
     return state.change(selection=targets[index % len(targets)], cursor=None)
 
 
-ACTIONS = {
+ACTIONS: dict[str, Callable[[EditorState, Key, Tools], EditorState | None]] = {
     "Enter": _enter,
     " ": _space,
     "Delete": _delete,

@@ -1,49 +1,50 @@
-"""Messages from the browser side of a pane, and the gestures that they stand for."""
+"""Messages from the browser side of a pane, and their conversion to gestures."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from seiswidgets.interaction.gestures import REACH, DoubleClick, Gesture, Key, Move, Press, Release
 from seiswidgets.interaction.projection import PaneProjection
-from seiswidgets.interaction.viewport import Viewport
+from seiswidgets.interaction.viewport import Axis, Viewport
 
-FINGER = 2.5  # times the reach of a mouse
-KINDS = ("size", "press", "drag", "release", "hover", "leave", "double", "wheel", "pinch", "rest", "key")
+TOUCH_FACTOR = 2.5  # reach of a finger, in reaches of a mouse
 
 
 @dataclass(frozen=True)
 class PointerMessage:
-    """What the browser tells of; only what a kind needs is filled in.
+    """A message about the pointer, a key or the size of a view; only the fields that its kind needs are filled in.
 
     Attributes
     ----------
     kind : str
-        One of `KINDS`. "size" is sent by each view as it appears (then it is ``fresh``) and when its size changes,
-        "rest" a moment after the last wheel step or drag.
+        "size" (each view sends it when it appears, with ``fresh``, and when its size changes), "press", "drag",
+        "release", "hover", "leave", "double", "wheel", "pinch", "rest" (a moment after the last wheel step or drag),
+        or "key".
     x, y : float
-        In css pixels of the plot area, as the kernel knows its size; of a pinch, the middle between the fingers.
+        Position in css pixels of the plot area, as the kernel knows its size; for a pinch, midway between the fingers.
     modifiers : frozenset of {"ctrl", "meta", "shift", "alt"}
     button : int
-        0 is the main one, 1 the middle one.
+        0 is the main button, 1 the middle one.
     touch, cancelled : bool
-        Whether a finger did it; whether the gesture was taken away, by the browser or by a second finger.
+        True for a finger; true if the browser, or a second finger, ended the gesture.
     pan : bool
-        Whether a press, drag or release is of the middle button, or with Space held: it pans, whatever lies there.
+        True for a press, drag or release that pans whatever lies under it: of the middle button, or with Space held.
     steps : float
-        Of the wheel, positive away from the user.
+        Steps of the wheel, positive away from the user.
     factor, dx, dz : float
-        How far two fingers have spread since the last pinch, and gone, in css pixels.
+        Spread and movement of two fingers since the last pinch message, the latter in css pixels.
     key : str
         By the name that browsers give it.
     width, height, ratio : float
-        Of the plot area, in css pixels, and device pixels in one of them.
+        Size of the plot area in css pixels, and device pixels per css pixel.
     fresh : bool
-        Whether a view has just appeared.
+        True for a view that has just appeared.
     """
 
     kind: str
     x: float = 0.0
     y: float = 0.0
-    modifiers: frozenset = frozenset()
+    modifiers: frozenset[str] = frozenset()
     button: int = 0
     touch: bool = False
     cancelled: bool = False
@@ -60,27 +61,27 @@ class PointerMessage:
 
     @property
     def pixel(self) -> tuple[float, float]:
-        """Where it happened, in css pixels of the plot area."""
+        """Position in css pixels of the plot area."""
         return self.x, self.y
 
 
 class GestureReader:
-    """Turn a pane's messages into gestures in present-day coordinates.
+    """Convert a pane's messages to gestures in present-day coordinates.
 
-    From a press to its release the pane is read as it was at the press: a drag changes the restoration, and with it the
-    picture under the pointer.
+    From a press to its release all messages use the projection at the press: a drag changes the restoration, and with
+    it the picture under the pointer.
     """
 
-    def __init__(self):
-        self._held: PaneProjection | None = None
+    def __init__(self) -> None:
+        self._projection: PaneProjection | None = None
 
     def read(self, message: PointerMessage, projection: PaneProjection) -> Gesture | None:
-        """Return the gesture that a message stands for, or None if it is not a gesture."""
+        """Return the gesture of a message, or None if it is not a gesture."""
         if message.kind == "press":
-            self._held = projection
-        projection = self._held or projection
+            self._projection = projection
+        projection = self._projection or projection
         if message.kind == "release":
-            self._held = None
+            self._projection = None
         return _gesture(message, projection)
 
 
@@ -89,7 +90,7 @@ def _gesture(message: PointerMessage, projection: PaneProjection) -> Gesture | N
         return Key(message.key, projection, message.modifiers)
     pixel, modifiers = message.pixel, message.modifiers
     point = projection.to_original(projection.view.to_section(pixel))
-    reach = REACH * FINGER if message.touch else REACH
+    reach = REACH * TOUCH_FACTOR if message.touch else REACH
     match message.kind:
         case "press":
             return Press(point, pixel, projection, message.button, modifiers, reach)
@@ -102,16 +103,14 @@ def _gesture(message: PointerMessage, projection: PaneProjection) -> Gesture | N
     return None
 
 
-def axes_state(view: Viewport, left: float) -> dict:
-    """The axes of a view as the layer in the browser knows them, with so much room on the left."""
-    axes = zip("xz", view.ticks(), strict=True)
-    x_and_z = {
-        name: {
-            "title": axis.title,
-            "pixels": [round(pixel, 2) for pixel in axis.pixels],
-            "labels": list(axis.labels),
-        }
-        for name, axis in axes
-    }
+def axes_state(view: Viewport, left: float) -> dict[str, Any]:
+    """Convert the axes of a view to what the pointer layer draws, with ``left`` css pixels left of the plot area."""
+    x, z = view.ticks()
     is_true = abs(view.exaggeration - 1) < 0.005
-    return {**x_and_z, "left": left, "note": "true proportions" if is_true else f"V.E. {view.exaggeration:.3g}×"}
+    note = "true proportions" if is_true else f"V.E. {view.exaggeration:.3g}×"
+    return {"x": _axis_state(x), "z": _axis_state(z), "left": left, "note": note}
+
+
+def _axis_state(axis: Axis) -> dict[str, Any]:
+    pixels = [round(pixel, 2) for pixel in axis.pixels]
+    return {"title": axis.title, "pixels": pixels, "labels": list(axis.labels)}

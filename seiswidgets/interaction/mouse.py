@@ -8,8 +8,16 @@ from functools import partial
 
 import numpy as np
 
-from seiswidgets.interaction.cutoff_handles import cut_offs, parted, slid, wall_of
-from seiswidgets.interaction.drawing import FAULT, HORIZON, PickSelection
+from seiswidgets.geology.picks import FAULT, HORIZON
+from seiswidgets.geology.section import Section
+from seiswidgets.interaction.cutoff_handles import (
+    CutOffHandle,
+    cutoff_handles,
+    slide_along_fault,
+    split_at_cutoff,
+    wall_of,
+)
+from seiswidgets.interaction.drawing import Drawing, PickSelection
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, Drag, EditorState, Tools
 from seiswidgets.interaction.gestures import DoubleClick, Move, Press, Release, line_under, vertex_under
 
@@ -18,7 +26,7 @@ CTRL = frozenset({"ctrl", "meta"})
 
 
 def press(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
-    """Add, select, remove or take hold of something."""
+    """Add, select, remove or grab something under the pointer."""
     if event.button != 0 or not np.isfinite([*event.point, *event.pixel]).all():
         return None
     state = state.change(cursor=None)
@@ -27,15 +35,15 @@ def press(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
         return _toggle_held(state, event, tools)
     if event.modifiers & CTRL:
         return _remove_under(state, event) or (None if mode == LOOK else state)
-    if not (free and mode != LOOK) and (taken := _take_hold(state, event, tools)):
-        return taken
+    if not (free and mode != LOOK) and (grabbed := _grab_under(state, event, tools)):
+        return grabbed
     if mode == LOOK:
         return _select_under(state, event)
     return state.add(event.point, tools, event.projection, free=free)
 
 
 def move(state: EditorState, event: Move | Release, tools: Tools) -> EditorState | None:
-    """Drag what is held."""
+    """Continue a drag."""
     drag = state.drag
     if drag is None:
         return None
@@ -53,12 +61,14 @@ def release(state: EditorState, event: Release, tools: Tools) -> EditorState | N
         return None
     if event.cancelled:
         return abandon_drag(state)
-    return (move(state, event, tools) if event.pixel != drag.last else state).settle()
+    moved = move(state, event, tools) if event.pixel != drag.last else None
+    return (moved or state).settle()
 
 
 def abandon_drag(state: EditorState) -> EditorState:
     """Go back to the state before a drag."""
-    return state.draw(state.drag.before, state.drag.selection).change(drag=None)
+    drag = state.drag
+    return state.draw(drag.before, drag.selection).change(drag=None) if drag else state
 
 
 def double_click(state: EditorState, event: DoubleClick, tools: Tools) -> EditorState | None:
@@ -70,75 +80,77 @@ def double_click(state: EditorState, event: DoubleClick, tools: Tools) -> Editor
     return state.hold(tools.inside(event.point)) if state.mode == BLOCK else state.finish()
 
 
-def _dragged(drag, event, tools):
+def _dragged(drag: Drag, event: Move | Release, tools: Tools) -> Drawing:
     free = "shift" in event.modifiers
     if drag.fault is not None and not free:
-        return slid(drag.base, tools.viewport.section, drag.target, drag.fault, event.point)
-    return drag.base.moved(drag.target, tools.placed(event.point, drag.target.kind, free=free))
+        return slide_along_fault(drag.base, tools.viewport.section, drag.target, drag.fault, event.point)
+    return drag.base.with_vertex_moved(drag.target, tools.place_vertex(event.point, drag.target.kind, free=free))
 
 
-def _toggle_held(state, event, tools):
+def _toggle_held(state: EditorState, event: Press, tools: Tools) -> EditorState:
     held = state.fixed
-    again = held is not None and vertex_under(event, [held], event.projection.to_pixels)
-    return state.hold(None if again else tools.inside(event.point))
+    is_hit = held is not None and vertex_under(event, [held], event.projection.to_pixels)
+    return state.hold(None if is_hit else tools.inside(event.point))
 
 
-def _remove_under(state, event):
+def _remove_under(state: EditorState, event: Press) -> EditorState | None:
     target = _vertex_under(state, event)
     return None if target is None else state.remove_vertex(target)
 
 
-def _take_hold(state, event, tools):
-    """Take hold of a cut-off, of a vertex, or of a line, into which a vertex is inserted; None if there is none."""
+def _grab_under(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
+    """Grab a cut-off, a vertex, or a line, into which a vertex is inserted; None if there is none."""
     chosen = state.selection
     vertex_first = state.mode == LOOK and chosen is not None and chosen.kind == FAULT
-    holds = (_hold_vertex, _hold_cutoff) if vertex_first else (_hold_cutoff, _hold_vertex)
-    return next((held for hold in (*holds, _hold_line) if (held := hold(state, event, tools))), None)
+    order = (_grab_vertex, _grab_cutoff) if vertex_first else (_grab_cutoff, _grab_vertex)
+    return next((grabbed for grab in (*order, _grab_line) if (grabbed := grab(state, event, tools))), None)
 
 
-def _hold_vertex(state, event, tools):
+def _grab_vertex(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
     target = _vertex_under(state, event)
-    return None if target is None else _hold(state, event, target, state.drawing)
+    return None if target is None else _grab(state, event, target, state.drawing)
 
 
-def _hold_line(state, event, tools):
+def _grab_line(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
     if state.drawing.draft:
         return None
-    found = [
+    hits = [
         (hit[2], replace(target, vertex=hit[0]), hit[1])
         for target, points in state.editable_lines()
         if (hit := line_under(event, points, event.projection.to_pixels))
     ]
-    if not found:
+    if not hits:
         return None
-    _, target, point = min(found, key=lambda hit: hit[0])
-    base = state.drawing.inserted(target, point)
-    return _hold(state, event, target, base).draw(base, target)
+    _, target, point = min(hits, key=lambda hit: hit[0])
+    base = state.drawing.with_vertex_inserted(target, point)
+    return _grab(state, event, target, base).draw(base, target)
 
 
-def _hold_cutoff(state, event, tools):
+def _grab_cutoff(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
     if state.mode not in (LOOK, HORIZON) or state.drawing.draft:
         return None
     section = tools.viewport.section
     handle = _cutoff_under(state, event, section)
     if handle is None:
         return None
-    base, target = parted(state.drawing, section, handle)
-    held = _hold(state, event, target, base, handle.fault)
+    base, target = split_at_cutoff(state.drawing, section, handle)
+    grabbed = _grab(state, event, target, base, handle.fault)
     before, after = (drawing.pick(HORIZON, handle.horizon).pieces for drawing in (state.drawing, base))
     if list(map(len, before)) != list(map(len, after)):  # until it moves, the piece has no vertex there
-        return held.change(selection=PickSelection(HORIZON, handle.horizon))
-    return held
+        return grabbed.change(selection=PickSelection(HORIZON, handle.horizon))
+    return grabbed
 
 
-def _hold(state, event, target, base, fault=None):
+def _grab(
+    state: EditorState, event: Press, target: PickSelection, base: Drawing, fault: str | None = None
+) -> EditorState:
     drag = Drag(target, state.drawing, state.selection, base, event.pixel, event.pixel, fault)
     return state.change(drag=drag, selection=target)
 
 
-def _cutoff_under(state, event, section):
-    """The cut-off under a press; of two at one point, the one in the wall that the pointer is in."""
-    handles = cut_offs(state.drawing, section)
+def _cutoff_under(state: EditorState, event: Press, section: Section) -> CutOffHandle | None:
+    """Return the cut-off under a press; of two at one point, the one in the wall that the pointer is in."""
+    handles = cutoff_handles(state.drawing, section)
     hits = [(vertex_under(event, [handle.inside], event.projection.to_pixels), handle) for handle in handles]
     near = [(hit[1], handle) for hit, handle in hits if hit]
     if not near:
@@ -148,28 +160,28 @@ def _cutoff_under(state, event, section):
     return min(near, key=lambda hit: (hit[1].fault != fault, hit[1].wall != wall, hit[0]))[1]
 
 
-def _vertex_under(state, event):
-    """The nearest vertex that can be taken hold of, or None."""
-    found = [
+def _vertex_under(state: EditorState, event: Press) -> PickSelection | None:
+    """Return the nearest vertex that can be dragged, or None."""
+    hits = [
         (hit[1], replace(target, vertex=hit[0]))
         for target, points in state.editable_lines()
         if (hit := vertex_under(event, points, partial(event.projection.vertex_pixels, is_fault=target.kind == FAULT)))
     ]
-    return min(found, key=lambda hit: hit[0])[1] if found else None
+    return min(hits, key=lambda hit: hit[0])[1] if hits else None
 
 
-def _select_under(state, event):
+def _select_under(state: EditorState, event: Press) -> EditorState | None:
     target = _piece_under(state, event)
     return None if target is None else state.change(selection=target)
 
 
-def _piece_under(state, event):
-    """The visible piece under a press, or None."""
-    found = [
+def _piece_under(state: EditorState, event: Press | DoubleClick) -> PickSelection | None:
+    """Return the visible piece under a press, or None."""
+    hits = [
         (hit[2], PickSelection(pick.kind, pick.name, piece))
         for pick in state.drawing.picks
         if pick.visible
         for piece, points in enumerate(pick.pieces)
         if (hit := line_under(event, points, event.projection.to_pixels))
     ]
-    return min(found, key=lambda hit: hit[0])[1] if found else None
+    return min(hits, key=lambda hit: hit[0])[1] if hits else None

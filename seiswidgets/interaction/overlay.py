@@ -1,37 +1,40 @@
-"""What lies on top of a section's picture: lines, marks, and a map in colours."""
+"""Lines, marks and a map in colours, drawn over a section's picture."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.point_location import TOLERANCE
 from seiswidgets.errors import SettingError
 from seiswidgets.interaction.viewport import Window, checked_window
 
-KINDS = ("cutoff", "held", "cursor")
+MARK_KINDS = ("cutoff", "held", "cursor")
+State = dict[str, Any]  # as JSON
 
 
 @dataclass(frozen=True, eq=False)
 class Stroke:
-    """A line on a section, with a pale rim so that it stands out from any colours.
+    """A line on a section, with a pale rim so that it stands out from any colour.
 
     Parameters
     ----------
     points : array, shape (n, 2)
         In the section's units; the line is interrupted where they are NaN.
     colour : str
-        As CSS has it.
+        A CSS colour.
     width : float
         In css pixels.
     dots : bool
-        Whether the vertices are shown.
+        True to show the vertices.
     dash : tuple of float
         Lengths of dashes and gaps, in css pixels.
     label : str
-        Written near the line's start.
+        Text near the start of the line.
     chosen : int, optional
-        The vertex that is shown larger.
+        Index of a vertex to show larger.
     """
 
     points: np.ndarray
@@ -42,29 +45,34 @@ class Stroke:
     label: str = ""
     chosen: int | None = None
 
-    def state(self) -> dict:
-        """It as the layer in the browser knows it: points that cannot be drawn are None."""
+    def state(self) -> State:
+        """Convert to the JSON that the pointer layer draws; points that cannot be drawn are None."""
         points = np.reshape(np.asarray(self.points, float), (-1, 2))
-        seen = np.isfinite(points).all(axis=1).tolist()
-        places = [point if there else None for point, there in zip(points.tolist(), seen, strict=True)]
-        style = {"colour": self.colour, "width": self.width, "dots": self.dots, "dash": list(self.dash)}
-        return {"points": places, **style, "label": self.label, "chosen": self.chosen}
+        return {
+            "points": [point if np.isfinite(point).all() else None for point in points.tolist()],
+            "colour": self.colour,
+            "width": self.width,
+            "dots": self.dots,
+            "dash": list(self.dash),
+            "label": self.label,
+            "chosen": self.chosen,
+        }
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A place on a section.
+    """A marked point on a section.
 
     Parameters
     ----------
     point : tuple (x, z)
-        In the section's units; a mark where it is NaN is not shown.
+        In the section's units; where it is NaN, the mark is not shown.
     kind : {"cutoff", "held", "cursor"}
-        A disc with a number, a pin, and the cross of the keyboard.
+        A disc with a number, a pin, and the cross of the keyboard cursor.
     text : str
-        The number.
+        Number on the disc.
     colour : str
-        As CSS has it.
+        A CSS colour.
     """
 
     point: tuple[float, float]
@@ -72,12 +80,12 @@ class Mark:
     text: str = ""
     colour: str = "#212121"
 
-    def __post_init__(self):
-        if self.kind not in KINDS:
-            raise SettingError(f"a mark's kind must be one of {', '.join(KINDS)}, but is {self.kind!r}")
+    def __post_init__(self) -> None:
+        if self.kind not in MARK_KINDS:
+            raise SettingError(f"a mark's kind must be one of {', '.join(MARK_KINDS)}, but is {self.kind!r}")
 
-    def state(self) -> dict:
-        """It as the layer in the browser knows it."""
+    def state(self) -> State:
+        """Convert to the JSON that the pointer layer draws."""
         x, z = (float(value) for value in self.point)
         return {"x": x, "z": z, "kind": self.kind, "text": self.text, "colour": self.colour}
 
@@ -89,36 +97,36 @@ class Overlay:
     Parameters
     ----------
     levels : array of uint8, shape (h, w)
-        Places in the palette.
+        Indices into the palette.
     palette : array of uint8, shape (256, 4)
-        Red, green, blue and opacity of each level.
+        Red, green, blue and alpha of each level.
     window : tuple (x_min, x_max, z_min, z_max)
-        What it covers to its outer edges, in the section's units.
+        Extent of the map to its outer edges, in the section's units.
 
     Raises
     ------
     SettingError
-        If these do not make a picture.
+        If the arrays do not make a picture.
     """
 
     levels: np.ndarray
     palette: np.ndarray
     window: Window
 
-    def __post_init__(self):
-        for name, like in (("levels", "(h, w)"), ("palette", "(256, 4)")):
+    def __post_init__(self) -> None:
+        for name, shape in (("levels", "(h, w)"), ("palette", "(256, 4)")):
             array = np.array(getattr(self, name))
             fits = array.shape == (256, 4) if name == "palette" else array.ndim == 2 and array.size
             if array.dtype != np.uint8 or not fits:
-                came = f"{array.dtype} of shape {array.shape}"
-                raise SettingError(f"an overlay's {name} must be uint8 of shape {like}, but is {came}")
+                actual = f"{array.dtype} of shape {array.shape}"
+                raise SettingError(f"an overlay's {name} must be uint8 of shape {shape}, but is {actual}")
             array.setflags(write=False)
             object.__setattr__(self, name, array)
         object.__setattr__(self, "window", checked_window("an overlay's window", self.window))
 
 
-def mesh_state(vertices, triangles) -> dict:
-    """A mesh as the layer in the browser knows it, each edge once.
+def mesh_state(vertices: np.ndarray, triangles: np.ndarray) -> State:
+    """Convert a mesh to what the pointer layer draws: its vertices, and each edge once.
 
     Parameters
     ----------
@@ -130,7 +138,7 @@ def mesh_state(vertices, triangles) -> dict:
     return {"vertices": mesh.vertices.astype("<f8").tobytes(), "edges": mesh.edges.astype("<u4").tobytes()}
 
 
-def map_state(source, target, triangles) -> dict:
+def map_state(source: ArrayLike, target: ArrayLike, triangles: ArrayLike) -> State:
     """A piecewise affine map for the layer in the browser, which locates points as `PiecewiseAffineMap` does."""
-    shapes = {name: np.asarray(array, "<f8").tobytes() for name, array in (("source", source), ("target", target))}
-    return {**shapes, "triangles": np.asarray(triangles).astype("<u4").tobytes(), "tolerance": TOLERANCE}
+    arrays = {name: np.asarray(array, "<f8").tobytes() for name, array in (("source", source), ("target", target))}
+    return {**arrays, "triangles": np.asarray(triangles).astype("<u4").tobytes(), "tolerance": TOLERANCE}

@@ -1,142 +1,158 @@
-"""How a pane sees the section of today: lines go from it to the pane and back, and break where they jump at a fault."""
+"""The map between the present-day section and a pane: lines go both ways, and break where they jump at a fault."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import ArrayLike
 
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.section import Section
+from seiswidgets.interaction.drawing import Point
 from seiswidgets.interaction.viewport import Viewport
 
-APART = 2.0  # css pixels between the places at which a line is carried
-MOST = 4000  # places of one line
-OFF = 0.02  # css pixels that a line is moved off a fault, to belong to one of its sides
-JUMP = 3.0  # times as far apart after as before: the two places lie on either side of a fault
-COARSE = 0.1  # of a trace and a sample: how far a carried line may be from where it belongs
+SAMPLE_DISTANCE = 2.0  # css pixels between the points at which a line is mapped
+MOST_SAMPLES = 4000  # per line
+OFFSET = 0.02  # css pixels that a line is moved off a fault, so that it belongs to one side
+JUMP = 3.0  # a step that grows by more than this factor crosses a fault
+TOLERANCE = 0.1  # traces and samples that a simplified line may be off
+
+Line = tuple[ArrayLike, bool]  # its points, shape (n, 2), and whether it is a fault
+Map = Callable[[np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
 class PaneProjection:
-    """What a pane shows of the original section.
+    """The map between the present-day section and a pane.
 
     Parameters
     ----------
     view : Viewport
-        Of the pane.
+        View of the pane.
     restoration : Restoration, optional
-        That the pane shows the result of; left out for a pane of the original itself.
+        Restoration whose result the pane shows; left out for a pane of the present-day section itself.
     """
 
     view: Viewport
     restoration: Restoration | None = None
 
-    def to_pixels(self, points) -> np.ndarray:
-        """Css pixels in the pane of points of the original, NaN where they are not shown; shape (n, 2)."""
+    def to_pixels(self, points: ArrayLike) -> np.ndarray:
+        """Convert present-day points to css pixels in the pane, shape (n, 2); NaN where the pane has no such point."""
         return self.view.to_pixels(self.to_pane(points))
 
-    def to_pane(self, points) -> np.ndarray:
-        """Where points of the original lie in the pane's section, NaN where nowhere; shape (n, 2)."""
-        points = np.reshape(np.asarray(points, float), (-1, 2))
-        return points if self.restoration is None else self.restoration.to_restored(points)
+    def to_pane(self, points: ArrayLike) -> np.ndarray:
+        """Map present-day points to the pane's section, shape (n, 2); NaN where it has no such point."""
+        rows = np.reshape(np.asarray(points, float), (-1, 2))
+        return rows if self.restoration is None else self.restoration.to_restored(rows)
 
-    def to_original(self, point) -> tuple[float, float]:
-        """Where a point of the pane's section lies in the original, NaN where nowhere."""
-        if self.restoration is None:
-            return tuple(map(float, point))
-        return tuple(self.restoration.to_original([point])[0].tolist())
+    def to_original(self, point: ArrayLike) -> Point:
+        """Map a point of the pane's section to the present-day section; NaN if it has no such point."""
+        rows = np.reshape(np.asarray(point, float), (1, 2))
+        x, z = (rows if self.restoration is None else self.restoration.to_original(rows))[0].tolist()
+        return x, z
 
-    def vertices(self, lines) -> list[np.ndarray]:
-        """Where the vertices of lines of the original are seen in the pane, each of shape (n, 2); lines as `shown`.
+    def vertices(self, lines: Sequence[Line]) -> list[np.ndarray]:
+        """Positions of the vertices of present-day lines in the pane's section, each of shape (n, 2).
 
-        The ends of a horizon go with what lies between them, and a fault with one side of itself.
-        """
-        clear = [_clear(line, self.view.pixel, is_fault) for line, is_fault in lines]
-        return _together(self.to_pane, clear if self.restoration else [line for line, _ in lines])
-
-    def vertex_pixels(self, line, is_fault: bool = False) -> np.ndarray:
-        """Css pixels in the pane of the vertices of one line, shape (n, 2)."""
-        return self.view.to_pixels(self.vertices([(line, is_fault)])[0])
-
-    def shown(self, lines) -> list[np.ndarray]:
-        """Lines of the original as they are seen in the pane, with a row of NaN where one is interrupted.
+        The ends of a horizon go with the rock between them, and a fault with the rock on one side.
 
         Parameters
         ----------
-        lines : list of (points, is_fault)
-            Points of shape (n, 2), and whether they are a fault's.
+        lines : sequence of (points, is_fault)
+            Points of shape (n, 2), and True for a fault.
+        """
+        return _mapped_together(self.to_pane, self._moved_off_faults(lines))
+
+    def vertex_pixels(self, points: ArrayLike, is_fault: bool = False) -> np.ndarray:
+        """Css pixels in the pane of the vertices of one present-day line, shape (n, 2)."""
+        return self.view.to_pixels(self.vertices([(points, is_fault)])[0])
+
+    def lines(self, lines: Sequence[Line]) -> list[np.ndarray]:
+        """Present-day lines as the pane shows them, with a row of NaN where a line is interrupted.
+
+        Parameters
+        ----------
+        lines : sequence of (points, is_fault)
+            As for ``vertices``.
         """
         if self.restoration is None:
-            return [np.asarray(line, float) for line, _ in lines]
-        clear = [_clear(line, self.view.pixel, is_fault) for line, is_fault in lines]
-        return [_with_gaps(runs) for runs in _carried(clear, self.to_pane, self.view)]
+            return [np.asarray(points, float) for points, _ in lines]
+        return [_with_gaps(runs) for runs in _mapped(self._moved_off_faults(lines), self.to_pane, self.view)]
 
-    def path(self, start, end) -> list[np.ndarray]:
-        """The stretches of the original that make a straight line in the pane from one of its points to another.
+    def path(self, start: Point, end: Point) -> list[np.ndarray]:
+        """Stretches on the present-day section that make a straight line in the pane from one point to another.
 
-        More than one where the line crosses a fault; their outer ends are the two points.
+        There are several if the line crosses faults. The first begins at ``start``, the last ends at ``end``.
         """
         ends = np.array([start, end], float)
-        seen = self.to_pane(ends)
-        if self.restoration is None or not np.isfinite(seen).all():
+        pane_ends = self.to_pane(ends)
+        if self.restoration is None or not np.isfinite(pane_ends).all():
             return [ends]
-        (runs,) = _carried([seen], self.restoration.to_original, self.view)
+        (runs,) = _mapped([pane_ends], self.restoration.to_original, self.view)
         if not runs:
             return [ends]
         runs[0][0], runs[-1][-1] = ends
         return runs
 
+    def _moved_off_faults(self, lines: Sequence[Line]) -> list[np.ndarray]:
+        if self.restoration is None:
+            return [np.asarray(points, float) for points, _ in lines]
+        return [_moved_off_fault(points, self.view.pixel, is_fault) for points, is_fault in lines]
 
-def _clear(line, pixel, is_fault):
-    """A line moved off the faults by a fraction of a pixel: inwards at its ends, and a fault sideways."""
-    line = np.array(line, float)
+
+def _moved_off_fault(points: ArrayLike, pixel: np.ndarray, is_fault: bool) -> np.ndarray:
+    """Move a line off the faults by a fraction of a pixel: a horizon's ends inwards, and a fault sideways too."""
+    line = np.array(points, float)
     if len(line) < 2:
         return line
     along = np.gradient(line / pixel, axis=0)
-    along[~along.any(axis=1)] = 1.0  # at a point that is doubled
-    off = OFF * along / np.hypot(*along.T)[:, None]
+    along[~along.any(axis=1)] = 1.0  # between two equal points
+    offset = OFFSET * along / np.hypot(*along.T)[:, None]
     if is_fault:
-        line += pixel * off[:, ::-1] * [-1, 1]
-    line[0] += 2 * pixel * off[0]
-    line[-1] -= 2 * pixel * off[-1]
+        line += pixel * offset[:, ::-1] * [-1, 1]
+    line[0] += 2 * pixel * offset[0]
+    line[-1] -= 2 * pixel * offset[-1]
     return line
 
 
-def _carried(lines, carry: Callable, view: Viewport) -> list[list[np.ndarray]]:
-    """Lines carried along, each in stretches without the points that they can do without."""
-    dense = [_dense(line, view.pixel) for line in lines]
-    return [_runs(*both, view.section) for both in zip(dense, _together(carry, dense), strict=True)]
+def _mapped(lines: Sequence[np.ndarray], point_map: Map, view: Viewport) -> list[list[np.ndarray]]:
+    """Map lines, each to one or more runs, which are simplified."""
+    dense = [_densified(line, view.pixel) for line in lines]
+    mapped = _mapped_together(point_map, dense)
+    return [_runs(before, after, view.section) for before, after in zip(dense, mapped, strict=True)]
 
 
-def _together(carry, lines):
-    """Lines carried along, all in one call."""
+def _mapped_together(point_map: Map, lines: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Map the points of lines in a single call."""
     lengths = [len(line) for line in lines]
-    return np.split(carry(np.concatenate([np.empty((0, 2)), *lines])), np.cumsum(lengths)[:-1]) if lines else []
+    return np.split(point_map(np.concatenate([np.empty((0, 2)), *lines])), np.cumsum(lengths)[:-1]) if lines else []
 
 
-def _runs(before, after, section):
-    """The stretches of a line that was carried along."""
-    steps = (np.hypot(*(np.diff(points, axis=0) * section.metres).T) for points in (before, after))
-    short, long = (np.nan_to_num(step, nan=np.inf) for step in steps)
-    breaks = np.flatnonzero(~(long <= JUMP * short)) + 1
+def _runs(before: np.ndarray, after: np.ndarray, section: Section) -> list[np.ndarray]:
+    """Split a mapped line where it jumps at a fault, and simplify the runs."""
+    lengths = [np.hypot(*(np.diff(points, axis=0) * section.metres).T) for points in (before, after)]
+    step_before, step_after = np.nan_to_num(lengths, nan=np.inf)
+    breaks = np.flatnonzero(~(step_after <= JUMP * step_before)) + 1
     runs = (run[np.isfinite(run).all(axis=1)] for run in np.split(after, breaks))
     return [_simplified(run, np.array([section.dx, section.dz])) for run in runs if len(run) > 1]
 
 
-def _with_gaps(runs):
-    return np.concatenate([row for run in runs for row in (run, [[np.nan, np.nan]])]) if runs else np.empty((0, 2))
+def _with_gaps(runs: Sequence[np.ndarray]) -> np.ndarray:
+    gap = np.full((1, 2), np.nan)
+    return np.concatenate([rows for run in runs for rows in (run, gap)]) if runs else np.empty((0, 2))
 
 
-def _dense(line, pixel):
-    """A line with points about a pixel apart, those of its own among them."""
-    line = np.asarray(line, float)
-    lengths = np.hypot(*(np.diff(line, axis=0) / pixel).T) / APART
-    share = min(1.0, MOST / max(1.0, lengths.sum()))
+def _densified(line: np.ndarray, pixel: np.ndarray) -> np.ndarray:
+    """Add points to a line, so that neighbours lie about ``SAMPLE_DISTANCE`` apart."""
+    lengths = np.hypot(*(np.diff(line, axis=0) / pixel).T) / SAMPLE_DISTANCE
+    share = min(1.0, MOST_SAMPLES / max(1.0, lengths.sum()))
     counts = np.maximum(1, np.ceil(lengths * share)).astype(int)
-    ways = np.concatenate([[0.0], *(number + np.arange(1, count + 1) / count for number, count in enumerate(counts))])
-    number = np.arange(len(line))
-    return np.column_stack([np.interp(ways, number, line[:, 0]), np.interp(ways, number, line[:, 1])])
+    parameters = [index + np.arange(1, count + 1) / count for index, count in enumerate(counts)]
+    indices = np.arange(len(line))
+    at = np.concatenate([[0.0], *parameters])
+    return np.column_stack([np.interp(at, indices, line[:, 0]), np.interp(at, indices, line[:, 1])])
 
 
-def _simplified(run, cell):
-    return np.array(shapely.LineString(run / cell).simplify(COARSE, preserve_topology=False).coords) * cell
+def _simplified(run: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    return np.array(shapely.LineString(run / cell).simplify(TOLERANCE, preserve_topology=False).coords) * cell

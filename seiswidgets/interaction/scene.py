@@ -1,34 +1,63 @@
-"""Lines and marks that a pane draws for the state of the editor."""
+"""Strokes and marks that a pane draws for the state of the editor."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from seiswidgets.geology.picks import FAULT
 from seiswidgets.interaction.cutoff_handles import CutOffHandle
-from seiswidgets.interaction.drawing import FAULT, PickSelection, Points
+from seiswidgets.interaction.drawing import PickSelection, Point, Points
 from seiswidgets.interaction.editor_state import LOOK, EditorState
 from seiswidgets.interaction.overlay import Mark, Stroke
 from seiswidgets.interaction.projection import PaneProjection
 
-DRAFT = "#d81b60"
-WIDTHS = {True: 3.5, False: 2.0}  # css pixels, of what is selected and of what is not
+DRAFT_COLOUR = "#d81b60"
+WIDTH, WIDTH_SELECTED = 2.0, 3.5  # css pixels
 DASH = (6, 4)
-APART = 10.0  # css pixels between two dots of a line
+DOT_DISTANCE = 10.0  # least distance in css pixels between two dots of a line
 
 
 def strokes(state: EditorState, projection: PaneProjection) -> list[Stroke]:
-    """All visible picks, the line under way, and the way from that to the keyboard cursor; then vertices, as dots."""
+    """All visible picks, the draft line and its dashed continuation to the keyboard cursor; then vertices as dots."""
     lines = list(_lines(state))
-    shown = projection.shown([(line.points, line.target.kind == FAULT) for line in lines])
-    drawn = [line.stroke(seen) for line, seen in zip(lines, shown, strict=True)]
     open_lines = [line for line in lines if line.is_open]
-    places = projection.vertices([(line.points, line.target.kind == FAULT) for line in open_lines])
-    return drawn + [line.dots(seen, projection.view.pixel) for line, seen in zip(open_lines, places, strict=True)]
+    shown = projection.lines([(line.points, line.target.kind == FAULT) for line in lines])
+    vertices = projection.vertices([(line.points, line.target.kind == FAULT) for line in open_lines])
+    return [
+        *(line.stroke(points) for line, points in zip(lines, shown, strict=True)),
+        *(line.dots(points, projection.view.pixel) for line, points in zip(open_lines, vertices, strict=True)),
+    ]
+
+
+def marks(state: EditorState, projection: PaneProjection, cutoffs: tuple[CutOffHandle, ...]) -> list[Mark]:
+    """The numbered cut-offs, the held point, and the keyboard cursor."""
+    colours = {pick.name: pick.colour for pick in state.drawing.picks if pick.kind == FAULT}
+    present = [Mark(handle.inside, "cutoff", str(handle.number), colours[handle.fault]) for handle in cutoffs]
+    if state.fixed:
+        present.append(Mark(state.fixed, "held", "held", DRAFT_COLOUR))
+    if state.cursor:
+        present.append(Mark(state.cursor, "cursor", "", DRAFT_COLOUR))
+    points = projection.to_pane([mark.point for mark in present]).tolist()
+    return [
+        Mark((x, z), mark.kind, mark.text, mark.colour)
+        for (x, z), mark in zip(points, present, strict=True)
+        if np.isfinite((x, z)).all()
+    ]
+
+
+def rubber_band(state: EditorState, projection: PaneProjection) -> list[Point]:
+    """Start of the line to the pointer; empty without a draft line, or while the keyboard cursor leads it."""
+    draft = state.drawing.draft
+    if draft is None or state.cursor:
+        return []
+    x, z = projection.to_pane([draft.points[-1]])[0].tolist()
+    return [(x, z)] if np.isfinite((x, z)).all() else []
 
 
 @dataclass(frozen=True)
 class _Line:
-    """A line to be drawn; open if its vertices can be taken hold of, with the chosen one among them."""
+    """A line to be drawn; open if its vertices can be dragged, ``chosen`` being the index of the selected one."""
 
     target: PickSelection
     points: Points
@@ -36,68 +65,50 @@ class _Line:
     is_selected: bool = False
     is_open: bool = False
     chosen: int | None = None
-    dash: tuple = ()
+    dash: tuple[float, ...] = ()
 
-    def stroke(self, seen):
+    @property
+    def width(self) -> float:
+        return WIDTH_SELECTED if self.is_selected else WIDTH
+
+    def stroke(self, points: np.ndarray) -> Stroke:
         label = (self.target.name or "") if self.target.piece == 0 else ""
-        return Stroke(seen, self.colour, WIDTHS[self.is_selected], dash=self.dash, label=label)
+        return Stroke(points, self.colour, self.width, dash=self.dash, label=label)
 
-    def dots(self, seen, pixel):
-        """Its vertices; where they are dense, not all of them, but the chosen one for certain."""
-        kept = _apart(seen / pixel, self.chosen)
-        alone = np.repeat(seen[kept], 2, axis=0)  # vertices without lines between them
-        alone[1::2] = np.nan
+    def dots(self, points: np.ndarray, pixel: np.ndarray) -> Stroke:
+        """Dots at the vertices; where these are dense, at some of them, but always at the chosen one."""
+        kept = _thinned(points / pixel, self.chosen)
+        separate = np.repeat(points[kept], 2, axis=0)  # vertices without lines between them
+        separate[1::2] = np.nan
         chosen = None if self.chosen is None else 2 * kept.index(self.chosen)
-        return Stroke(alone, self.colour, WIDTHS[self.is_selected], dots=True, chosen=chosen)
+        return Stroke(separate, self.colour, self.width, dots=True, chosen=chosen)
 
 
-def _lines(state):
+def _lines(state: EditorState) -> Iterator[_Line]:
     for pick in state.drawing.picks:
         if pick.visible:
-            for number, points in enumerate(pick.pieces):
-                yield _line(state, PickSelection(pick.kind, pick.name, number), points, pick.colour)
-    line, cursor = state.drawing.draft, state.cursor
-    if line:
-        yield _line(state, PickSelection(line.kind, None, 0), line.points, DRAFT)
-    if line and cursor and cursor != line.points[-1]:
-        yield _Line(PickSelection(line.kind, None), (line.points[-1], cursor), DRAFT, dash=DASH)
+            for piece, points in enumerate(pick.pieces):
+                yield _line(state, PickSelection(pick.kind, pick.name, piece), points, pick.colour)
+    draft, cursor = state.drawing.draft, state.cursor
+    if draft:
+        yield _line(state, PickSelection(draft.kind, None, 0), draft.points, DRAFT_COLOUR)
+    if draft and cursor and cursor != draft.points[-1]:
+        yield _Line(PickSelection(draft.kind, None), (draft.points[-1], cursor), DRAFT_COLOUR, dash=DASH)
 
 
-def _line(state, target, points, colour):
-    chosen = state.selection
-    is_selected = chosen is not None and (chosen.kind, chosen.name) == (target.kind, target.name)
-    is_open = target.name is None or state.mode == target.kind or (is_selected and state.mode == LOOK)
-    vertex = chosen.vertex if is_selected and chosen.piece == target.piece else None
-    return _Line(target, points, colour, is_selected, is_open, vertex)
+def _line(state: EditorState, target: PickSelection, points: Points, colour: str) -> _Line:
+    selection = state.selection
+    if selection is None or (selection.kind, selection.name) != (target.kind, target.name):
+        return _Line(target, points, colour, is_open=target.name is None or state.mode == target.kind)
+    is_open = target.name is None or state.mode in (target.kind, LOOK)
+    chosen = selection.vertex if selection.piece == target.piece else None
+    return _Line(target, points, colour, is_selected=True, is_open=is_open, chosen=chosen)
 
 
-def marks(state: EditorState, projection: PaneProjection, cutoffs: tuple[CutOffHandle, ...]) -> list[Mark]:
-    """The cut-offs, numbered; the point that is held; the keyboard cursor."""
-    colours = {pick.name: pick.colour for pick in state.drawing.picks if pick.kind == FAULT}
-    places = [(mark.inside, "cutoff", str(mark.number), colours[mark.fault]) for mark in cutoffs]
-    if state.fixed:
-        places.append((state.fixed, "held", "held", DRAFT))
-    if state.cursor:
-        places.append((state.cursor, "cursor", "", DRAFT))
-    points = projection.to_pane([point for point, *_ in places])
-    return [
-        Mark(tuple(at.tolist()), *rest) for at, (_, *rest) in zip(points, places, strict=True) if np.isfinite(at).all()
-    ]
-
-
-def rubber(state: EditorState, projection: PaneProjection) -> list[tuple[float, float]]:
-    """Where the line to the pointer starts; nowhere if no line is under way, or the keyboard leads it."""
-    draft = state.drawing.draft
-    if draft is None or state.cursor:
-        return []
-    (start,) = projection.to_pane([draft.points[-1]])
-    return [tuple(start.tolist())] if np.isfinite(start).all() else []
-
-
-def _apart(pixels, chosen):
-    """The first of some points, and each that is far enough from the last one kept; and the chosen one."""
-    kept = []
-    for number, place in enumerate(pixels):
-        if not kept or number == chosen or not np.hypot(*(place - pixels[kept[-1]])) < APART:
-            kept.append(number)
+def _thinned(pixels: np.ndarray, chosen: int | None) -> list[int]:
+    """Indices of the first point, of each that lies far enough from the last one kept, and of the chosen one."""
+    kept: list[int] = []
+    for index, pixel in enumerate(pixels):
+        if not kept or index == chosen or not np.hypot(*(pixel - pixels[kept[-1]])) < DOT_DISTANCE:
+            kept.append(index)
     return kept

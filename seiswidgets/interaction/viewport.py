@@ -1,17 +1,20 @@
-"""What a pane shows: a window of a section on so many pixels, zoomed, panned and stretched, and its axes."""
+"""The view of a pane: a window of a section, zoomed, panned and stretched to the pane's pixels, and its axes."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.section import Section
 
-FEWEST = 4  # traces and samples across the window: no closer than that
-FARTHEST = 2.0  # times the section, in the direction that is filled more: no farther than that
-APART_X, APART_Z = 95, 45  # css pixels between ticks, about
+FEWEST = 4  # traces and samples across the window at the closest zoom
+FARTHEST = 2.0  # times the section, in the direction that fills the pane more, at the farthest zoom
+TICK_DISTANCE_X, TICK_DISTANCE_Z = 95, 45  # approximate, in css pixels
 
 Window = tuple[float, float, float, float]
+WHOLE: Window = None  # type: ignore[assignment] # a request for the whole, which Viewport replaces by a window
 
 
 @dataclass(frozen=True)
@@ -21,11 +24,11 @@ class Axis:
     Attributes
     ----------
     title : str
-        What is measured along it, and the unit: "Distance (m)".
+        The quantity and its unit: "Distance (m)".
     ticks : tuple of float
         Round positions in the window, in the section's unit.
     pixels : tuple of float
-        The same in css pixels from the left or from the top.
+        The same positions in css pixels from the left or from the top.
     labels : tuple of str
     """
 
@@ -37,42 +40,42 @@ class Axis:
 
 @dataclass(frozen=True)
 class Viewport:
-    """The part of a section that a pane shows, and on how many pixels.
+    """The part of a section that a pane shows, and the size of the pane.
 
-    Pixels are css pixels of the plot area, from its upper left corner, (right, down); those of the backing store are
-    more of the same where the screen has a higher resolution. A view is a value: its methods return a new one.
+    Pixels are css pixels of the plot area, (right, down) from its upper left corner. On a high-resolution screen the
+    backing store has more pixels than that. A viewport is a value: its methods return a new one.
 
     Parameters
     ----------
     section : Section
     width, height : float
-        Of the plot area, in css pixels.
+        Size of the plot area in css pixels.
     pixel_ratio : float
-        Device pixels in one css pixel.
+        Device pixels per css pixel.
     window : tuple (x_min, x_max, z_min, z_max), optional
-        In the section's units; all of the frame if left out.
+        Part of the section shown, in the section's units; the whole frame if left out.
     frame : tuple (x_min, x_max, z_min, z_max), optional
-        What a fitted view shows; the whole section if left out. Panes whose sections differ in extent share one.
+        Window of a fitted view; the whole section if left out. Panes whose sections differ in extent share one.
 
     Raises
     ------
     SettingError
-        If a size is not above 0, or the window or the frame is empty.
+        If a size is not above 0, or if the window or the frame is empty.
     """
 
     section: Section
     width: float = 900.0
     height: float = 600.0
     pixel_ratio: float = 1.0
-    window: Window | None = None
+    window: Window = WHOLE
     frame: Window | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("width", "height", "pixel_ratio"):
             object.__setattr__(self, name, _above_zero(name, getattr(self, name)))
         if self.frame is not None:
             object.__setattr__(self, "frame", checked_window("frame", self.frame))
-        window = self.whole if self.window is None else checked_window("window", self.window)
+        window = self.whole if self.window is WHOLE else checked_window("window", self.window)
         object.__setattr__(self, "window", window)
 
     @property
@@ -89,12 +92,12 @@ class Viewport:
 
     @property
     def is_fitted(self) -> bool:
-        """Whether the window is the whole and no more."""
+        """True if the window is exactly the whole."""
         return self.window == self.whole
 
     @property
     def exaggeration(self) -> float:
-        """How much taller rock is drawn than it is, compared with its width; 1 is true proportions."""
+        """Vertical exaggeration of the rock as drawn; 1 is true proportions."""
         x_scale, z_scale = self.size / (_spans(self.window) * self.section.metres)
         return float(z_scale / x_scale)
 
@@ -106,147 +109,147 @@ class Viewport:
     @property
     def backing(self) -> tuple[int, int]:
         """Width and height of the backing store, in device pixels."""
-        return tuple(max(1, round(length * self.pixel_ratio)) for length in (self.width, self.height))
+        return max(1, round(self.width * self.pixel_ratio)), max(1, round(self.height * self.pixel_ratio))
 
     @property
     def pixel(self) -> np.ndarray:
-        """How far a css pixel reaches on the section, along x and along z; shape (2,)."""
+        """Width and height of a css pixel in the section's units, shape (2,)."""
         return _spans(self.window) / self.size
 
     @property
     def picture(self) -> tuple[float, float, float, float]:
-        """Where the picture of the whole section lies: left, top, width and height, in css pixels."""
+        """Left, top, width and height of the whole section's picture, in css pixels."""
         (left, top), (right, bottom) = self.to_pixels(_corners(self.covered))
         return float(left), float(top), float(right - left), float(bottom - top)
 
-    def to_pixels(self, points) -> np.ndarray:
-        """Css pixels of points on the section, of the same shape, (n, 2) or (2,)."""
+    def to_pixels(self, points: ArrayLike) -> np.ndarray:
+        """Convert points on the section to css pixels; both have shape (n, 2) or (2,)."""
         return (np.asarray(points, float) - _corners(self.window)[0]) / self.pixel
 
-    def to_section(self, pixels) -> np.ndarray:
-        """Points on the section at css pixels, of the same shape, (n, 2) or (2,)."""
+    def to_section(self, pixels: ArrayLike) -> np.ndarray:
+        """Convert css pixels to points on the section; both have shape (n, 2) or (2,)."""
         return _corners(self.window)[0] + np.asarray(pixels, float) * self.pixel
 
-    def to_backing(self, points) -> np.ndarray:
-        """Device pixels, on the backing store, of points on the section; of the same shape."""
+    def to_backing(self, points: ArrayLike) -> np.ndarray:
+        """Convert points on the section to pixels of the backing store, in the same shape."""
         return self.to_pixels(points) * (self.backing / self.size)
 
-    def from_backing(self, pixels) -> np.ndarray:
-        """Points on the section at device pixels of the backing store; of the same shape."""
+    def from_backing(self, pixels: ArrayLike) -> np.ndarray:
+        """Convert pixels of the backing store to points on the section, in the same shape."""
         return self.to_section(np.asarray(pixels, float) / (self.backing / self.size))
 
     def fitted(self) -> "Viewport":
-        """The whole, filling the pane."""
-        return replace(self, window=None)
+        """View of the whole, filling the pane."""
+        return replace(self, window=WHOLE)
 
-    def framed(self, frame: Window | None) -> "Viewport":
-        """With another frame: a fitted view stays fitted, any other shows what it showed."""
-        return replace(self, frame=frame, window=None if self.is_fitted else self.window)
+    def with_frame(self, frame: Window | None) -> "Viewport":
+        """View with another frame: a fitted view stays fitted, any other keeps its window."""
+        return replace(self, frame=frame, window=WHOLE if self.is_fitted else self.window)
 
-    def of(self, section: Section) -> "Viewport":
-        """Of another section: a fitted view stays fitted, any other shows the same window if the units are the same."""
+    def with_section(self, section: Section) -> "Viewport":
+        """View of another section: a fitted view stays fitted, any other keeps its window if the units are equal."""
         same = (section.x_unit, section.z_unit) == (self.section.x_unit, self.section.z_unit)
-        return replace(self, section=section, window=self.window if same and not self.is_fitted else None)
+        return replace(self, section=section, window=self.window if same and not self.is_fitted else WHOLE)
 
-    def zoomed(self, factor: float, at=None) -> "Viewport":
-        """Closer by a factor (farther if below 1), the point under a css pixel staying there; by default the centre.
+    def zoomed(self, factor: float, at: ArrayLike | None = None) -> "Viewport":
+        """Zoom in by a factor (out if below 1) about a css pixel, by default the centre.
 
-        The window keeps a few samples across, does not go far beyond the section, and always touches it.
+        The window keeps a few samples across, does not reach far beyond the section, and always touches it.
         """
         factor = _above_zero("factor", factor)
         spans = _spans(self.window)
         closest = (spans / (FEWEST * np.array([self.section.dx, self.section.dz]))).min()
         farthest = (spans / (FARTHEST * _spans(self.whole))).min()
         factor = np.clip(factor, min(1.0, farthest), max(1.0, closest))
-        held = self.to_section(self.size / 2 if at is None else at)
-        corners = held + (_corners(self.window) - held) / factor
+        centre = self.to_section(self.size / 2 if at is None else at)
+        corners = centre + (_corners(self.window) - centre) / factor
         low, high = _corners(self.whole)
-        return self._with(corners + np.maximum(0, low - corners[1]) - np.maximum(0, corners[0] - high))
+        return self._with_corners(corners + np.maximum(0, low - corners[1]) - np.maximum(0, corners[0] - high))
 
     def panned(self, dx: float, dz: float) -> "Viewport":
-        """The picture moved right and down by css pixels; its middle stays on the section."""
+        """View with the picture moved right and down by css pixels; its middle stays on the section."""
         corners = _corners(self.window)
         (low, high), middle = _corners(self.whole), corners.mean(axis=0)
         moved = np.clip(middle - np.array([dx, dz]) * self.pixel, np.minimum(low, middle), np.maximum(high, middle))
-        return self._with(corners + moved - middle)
+        return self._with_corners(corners + moved - middle)
 
     def exaggerated(self, value: float) -> "Viewport":
-        """With a vertical exaggeration, what is shown of x staying as it is; 1 is true proportions.
+        """View with another vertical exaggeration, in which 1 is true proportions; the range of x stays.
 
-        Where the pane is higher than the section then is, the section lies in its middle.
+        If the pane becomes taller than the section, the section is centred in it.
         """
         value = _above_zero("exaggeration", value)
         (x_min, z_min), (x_max, z_max) = _corners(self.window)
         reach = (z_max - z_min) * self.exaggeration / value
         low, high = self.whole[2:]
         middle = (low + high) / 2 if reach >= high - low else (z_min + z_max) / 2
-        stretched = self._with(np.array([[x_min, middle - reach / 2], [x_max, middle + reach / 2]]))
+        stretched = self._with_corners(np.array([[x_min, middle - reach / 2], [x_max, middle + reach / 2]]))
         return stretched.zoomed(min(1.0, reach / (FEWEST * self.section.dz)))
 
     def resized(self, width: float, height: float, pixel_ratio: float | None = None) -> "Viewport":
-        """On another number of pixels: a fitted view stays fitted, any other keeps its exaggeration and its x."""
+        """View in a pane of another size: a fitted one stays fitted, others keep their exaggeration and range of x."""
         ratio = self.pixel_ratio if pixel_ratio is None else pixel_ratio
         view = replace(self, width=width, height=height, pixel_ratio=ratio)
         if self.is_fitted:
             return view
         (x_min, z_min), (x_max, z_max) = _corners(self.window)
         middle, reach = (z_min + z_max) / 2, (z_max - z_min) * view.exaggeration / self.exaggeration
-        return view._with(np.array([[x_min, middle - reach / 2], [x_max, middle + reach / 2]]))
+        return view._with_corners(np.array([[x_min, middle - reach / 2], [x_max, middle + reach / 2]]))
 
     def ticks(self) -> tuple[Axis, Axis]:
-        """The axes of x and of z, with round ticks inside the window."""
+        """Axes of x and z, with round ticks inside the window."""
         x_min, x_max, z_min, z_max = self.window
         z_title = f"{'Two-way time' if self.section.is_time else 'Depth'} ({self.section.z_unit})"
         return (
-            _axis(f"Distance ({self.section.x_unit})", x_min, x_max, self.width, APART_X),
-            _axis(z_title, z_min, z_max, self.height, APART_Z),
+            _axis(f"Distance ({self.section.x_unit})", x_min, x_max, self.width, TICK_DISTANCE_X),
+            _axis(z_title, z_min, z_max, self.height, TICK_DISTANCE_Z),
         )
 
-    def _with(self, corners):
+    def _with_corners(self, corners: np.ndarray) -> "Viewport":
         return replace(self, window=tuple(corners.T.ravel().tolist()))
 
 
-def checked_window(name: str, window) -> Window:
-    """A window as a tuple of floats; SettingError if it is not finite or empty."""
+def checked_window(name: str, window: Iterable[float]) -> Window:
+    """Validate a window and return it as a tuple of floats; SettingError if it is empty or not finite."""
     try:
-        x_min, x_max, z_min, z_max = checked = tuple(float(value) for value in window)
+        x_min, x_max, z_min, z_max = (float(value) for value in window)
     except (TypeError, ValueError):
-        checked = x_min, x_max, z_min, z_max = (np.nan,) * 4
-    if not (np.isfinite(checked).all() and x_min < x_max and z_min < z_max):
+        x_min = x_max = z_min = z_max = np.nan
+    if not (-np.inf < x_min < x_max < np.inf and -np.inf < z_min < z_max < np.inf):
         raise SettingError(f"{name} must be (x_min, x_max, z_min, z_max), each minimum first, but is {window!r}")
-    return checked
+    return x_min, x_max, z_min, z_max
 
 
-def _axis(title, low, high, length, apart):
-    step, decimals = _step((high - low) * apart / length, (high - low) / 2)
+def _axis(title: str, low: float, high: float, length: float, tick_distance: float) -> Axis:
+    step, decimals = _step((high - low) * tick_distance / length, (high - low) / 2)
     ticks = np.round(np.arange(np.ceil(low / step), np.floor(high / step) + 1) * step, decimals) + 0.0
     ticks = ticks[(ticks >= low) & (ticks <= high)]
     pixels = (ticks - low) * length / (high - low)
     return Axis(title, tuple(ticks.tolist()), tuple(pixels.tolist()), tuple(f"{tick:.{decimals}f}" for tick in ticks))
 
 
-def _step(wanted, most):
-    """The first of 1, 2, 5, 10, ... that is no less than what is wanted, but at most so much; and its decimals."""
-    exponents = range(int(np.floor(np.log10(min(wanted, most)))) - 1, int(np.floor(np.log10(wanted))) + 2)
+def _step(least: float, most: float) -> tuple[float, int]:
+    """Smallest of 1, 2, 5, 10, ... that is >= ``least``, or else the largest <= ``most``; and its decimals."""
+    exponents = range(int(np.floor(np.log10(min(least, most)))) - 1, int(np.floor(np.log10(least))) + 2)
     steps = [(float(f"{digit}e{exponent}"), max(0, -exponent)) for exponent in exponents for digit in (1, 2, 5)]
-    enough = next(step for step in steps if step[0] >= wanted)
+    enough = next(step for step in steps if step[0] >= least)
     return enough if enough[0] <= most else max(step for step in steps if step[0] <= most)
 
 
-def _corners(window):
-    """Upper left and lower right, as rows of points."""
+def _corners(window: Window) -> np.ndarray:
+    """Upper left and lower right corner, as rows of points."""
     return np.reshape(window, (2, 2)).T
 
 
-def _spans(window):
+def _spans(window: Window) -> np.ndarray:
     return np.diff(_corners(window), axis=0)[0]
 
 
-def _above_zero(name, value):
+def _above_zero(name: str, value: float) -> float:
     try:
-        number = float(value)
+        checked = float(value)
     except (TypeError, ValueError):
-        number = np.nan
-    if not (np.isfinite(number) and number > 0):
+        checked = np.nan
+    if not 0 < checked < np.inf:
         raise SettingError(f"{name} must be a finite number above 0, but is {value!r}")
-    return number
+    return checked

@@ -1,67 +1,79 @@
-"""Closing a widget together with everything that it is made of, so that the kernel can free it."""
+"""Base of the public widgets: each closes together with its parts, so that the kernel can free its memory."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import is_dataclass
+from inspect import signature
+from typing import Any
 
-from ipycanvas.canvas import _CANVAS_MANAGER
 from ipywidgets import Widget
 
-DEEPEST = 2  # containers within containers in which an attribute may hold widgets
-OURS = __name__.rpartition(".")[0]  # the package whose plain objects may hold widgets too
+from seiswidgets.signatures import check_keywords
+from seiswidgets.widgets.ipycanvas_compat import CANVAS_MANAGER
+
+MOST_NESTED = 2  # containers within containers that are searched for widgets
+NOT_SETTINGS = {"settings", "traits", "children", "comm", "keys", "log"}  # a widget sets these traits by itself
+PACKAGE = __name__.rpartition(".")[0]  # its plain objects are searched for widgets too
 
 
-class WithParts:
+class WithParts(Widget):
     """A widget that closes its parts with itself: ipywidgets keeps each open widget alive, layouts and styles too.
 
     Attributes
     ----------
     borrowed : tuple of Widget
-        Widgets that it holds but that belong to somebody else; they stay open.
+        Parts that belong to another widget; they stay open.
     """
 
     borrowed: tuple[Widget, ...] = ()
 
+    @classmethod
+    def check_settings(cls, settings: Mapping[str, Any]) -> None:
+        """Refuse keyword arguments that the class does not take, with a TypeError that suggests the right one."""
+        names = {*cls.class_trait_names(), *signature(cls).parameters} - NOT_SETTINGS
+        check_keywords(cls.__name__, settings, (name for name in names if not name.startswith("_")))
+
     def close(self) -> None:
         """Close this widget and all its parts; closing it again does nothing."""
-        if self.comm is not None:  # else it was closed before, or never opened
+        if self.comm is not None:  # else closed already, or never opened
             _close(super().close, parts(self, self.borrowed))
 
 
 def close_with_parts(widget: Widget) -> None:
-    """Close a widget of ipywidgets together with its layout, its style, and all else that it holds."""
+    """Close a widget of ipywidgets together with its layout, its style, and its parts."""
     _close(widget.close, parts(widget))
 
 
-def _close(close_whole, held):
-    close_whole()  # first, so that the page drops everything at once
+def _close(close_whole: Callable[[], None], held: Iterable[Widget]) -> None:
+    close_whole()  # first, so that the page removes everything at once
     for part in held:
         part.close()
 
 
 def parts(whole: Widget, borrowed: Iterable[Widget] = ()) -> list[Widget]:
-    """Every widget that can be reached from one through attributes and traits, without itself and the borrowed ones."""
-    seen = {id(one) for one in (whole, _CANVAS_MANAGER, *borrowed)}  # all canvases share the manager
-    found, waiting = [], [whole]
+    """Widgets that can be reached from one through attributes and traits, without itself and the borrowed ones."""
+    seen = {id(one) for one in (whole, CANVAS_MANAGER, *borrowed)}  # all canvases share the manager
+    widgets: list[Widget] = []
+    waiting: list[object] = [whole]
     while waiting:
         for one in _held(vars(waiting.pop(0)), -1):
             if id(one) not in seen:
                 seen.add(id(one))
                 waiting.append(one)
                 if isinstance(one, Widget):
-                    found.append(one)
-    return found
+                    widgets.append(one)
+    return widgets
 
 
-def _held(value, depth: int) -> Iterator[object]:
-    """The widgets in a value, and the objects of ours that may hold some."""
+def _held(value: object, depth: int) -> Iterator[object]:
+    """Yield the widgets in a value, and the plain objects of this package that may hold some."""
     if isinstance(value, Widget) or _is_holder(value):
         yield value
-    elif depth <= DEEPEST and isinstance(value, dict | list | tuple):
+    elif depth <= MOST_NESTED and isinstance(value, dict | list | tuple):
         for one in value.values() if isinstance(value, dict) else value:
             yield from _held(one, depth + 1)
 
 
-def _is_holder(value):
-    """Whether it is a plain object of these modules; our dataclasses are values, and hold numbers only."""
+def _is_holder(value: object) -> bool:
+    """Return whether a value is a plain object of this package; its dataclasses are values, and hold no widgets."""
     kind = type(value)
-    return kind.__module__.startswith(OURS) and hasattr(value, "__dict__") and not is_dataclass(kind)
+    return kind.__module__.startswith(PACKAGE) and hasattr(value, "__dict__") and not is_dataclass(kind)

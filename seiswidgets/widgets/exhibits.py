@@ -1,4 +1,4 @@
-"""The sections that come with the package, as the gallery shows them."""
+"""Sections shown in the gallery."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from seiswidgets.io.session.sources import DATASET, SYNTHETIC, SectionSource
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A section of the gallery: what it is called, how it is made, and what is to be seen in it."""
+    """A section of the gallery: its title, the function that loads it, and a sentence about it."""
 
     title: str
     load: Callable[[], Synthetic | Section]
@@ -20,12 +20,12 @@ class Exhibit:
 
     @property
     def has_picks(self) -> bool:
-        """Whether it comes with the picks of an interpreter: those made by computer do."""
+        """Whether the section comes with an interpreter's picks, as synthetic ones do."""
         return self.load.__module__ == synthetic.__name__
 
     @property
     def source(self) -> SectionSource:
-        """Where the section comes from."""
+        """Origin of the section."""
         return SectionSource(SYNTHETIC if self.has_picks else DATASET, self.load.__name__)
 
 
@@ -33,13 +33,13 @@ EXHIBITS = {
     exhibit.load.__name__: exhibit
     for exhibit in (
         Exhibit("Dome, cut by a fault", synthetic.faulted_fold, "Unfault it, then flatten it: the two steps in one."),
-        Exhibit("Straight fault", synthetic.planar_fault, "Its hanging wall slid down; a shift brings it back."),
-        Exhibit("Listric fault", synthetic.listric_fault, "Its hanging wall turned as it slid along an arc."),
-        Exhibit("Graben", synthetic.graben, "Two faults, and between them a block that sank."),
-        Exhibit("Dominoes", synthetic.domino, "Parallel faults between blocks that turned together."),
-        Exhibit("Blind fault", synthetic.blind_fault, "It dies out at both ends inside the section."),
-        Exhibit("Folds", synthetic.sine_fold, "No fault: a horizon alone is enough to flatten it."),
-        Exhibit("F3, Dutch North Sea", datasets.f3, "A real section in two-way time; small faults at its lower left."),
-        Exhibit("Teapot Dome, Wyoming", datasets.teapot, "A real section in two-way time; one fault in its middle."),
+        Exhibit("Straight fault", synthetic.planar_fault, "The hanging wall slid down; a shift restores it."),
+        Exhibit("Listric fault", synthetic.listric_fault, "The hanging wall rotated as it slid along an arc."),
+        Exhibit("Graben", synthetic.graben, "Two faults, and between them a block that subsided."),
+        Exhibit("Dominoes", synthetic.domino, "Parallel faults between blocks that rotated together."),
+        Exhibit("Blind fault", synthetic.blind_fault, "Both tips of the fault lie inside the section."),
+        Exhibit("Folds", synthetic.sine_fold, "No fault: one horizon is enough to flatten it."),
+        Exhibit("F3, Dutch North Sea", datasets.f3, "A real section in two-way time; small faults at the lower left."),
+        Exhibit("Teapot Dome, Wyoming", datasets.teapot, "A real section in two-way time; one fault in the middle."),
     )
 }

@@ -14,9 +14,9 @@ from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.ipycanvas_compat import hold_canvases
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.key_guard import KeyGuard
-from seiswidgets.widgets.section_view.canvas import held
 from seiswidgets.widgets.section_view.pane import SectionPane
 from seiswidgets.widgets.section_view.still import still
 from seiswidgets.widgets.snapshot import Snapshot
@@ -130,7 +130,7 @@ class LinkedPanes(WithParts, VBox):
     def show(self, snapshot: Snapshot) -> None:
         """Draw a snapshot in both panes at once; while something moves, the picture does not wait for the map."""
         with UI_LOCK:
-            with held():
+            with hold_canvases():
                 self._draw_snapshot(snapshot)
                 if not snapshot.moving:
                     self._make_room(snapshot)

@@ -1,4 +1,4 @@
-"""How things are said in the app; every text is escaped by who fills it in."""
+"""HTML of messages in the app, and errors in words; whoever fills a text into the HTML escapes it."""
 
 import logging
 
@@ -11,7 +11,7 @@ _log = logging.getLogger(__name__)
 
 
 def in_words(error: Exception) -> str:
-    """What an error says; one that is not ours is logged too, as it is a mistake in seiswidgets."""
+    """Message of an error; an error that is not a `SeiswidgetsError` is a bug, and is logged too."""
     if isinstance(error, SeiswidgetsError):
         return error.text
     log_error(error)
@@ -19,5 +19,5 @@ def in_words(error: Exception) -> str:
 
 
 def log_error(error: Exception) -> None:
-    """Log an error that is a mistake in seiswidgets."""
+    """Log an error that is a bug in seiswidgets."""
     _log.error("a background job failed", exc_info=error)

@@ -7,10 +7,10 @@ from seiswidgets.widgets.assets import asset
 
 
 class Names(anywidget.AnyWidget):
-    """Shows nothing; in the box that it is a child of, each control gets a name, that of its label or its tooltip."""
+    """A hidden child of a box: names each control in that box after its label or its tooltip."""
 
     _esm = asset("names.js")
     _css = asset("names.css")
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__(layout=Layout(display="none"))

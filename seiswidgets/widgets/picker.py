@@ -7,20 +7,20 @@ from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
 
 from seiswidgets.geology import validation
 from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.picks import HORIZON, Interpretation
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
-from seiswidgets.interaction.drawing import HORIZON, Drawing
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES
 from seiswidgets.interaction.gestures import Gesture
-from seiswidgets.interaction.scene import marks, rubber, strokes
-from seiswidgets.interaction.snapping import EVENTS, followed, snapped
+from seiswidgets.interaction.scene import marks, rubber_band, strokes
+from seiswidgets.interaction.snapping import EVENTS, follow_event, snap_to_event
 from seiswidgets.widgets.binding import bind, bind_control
 from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.key_guard import KeyGuard
-from seiswidgets.widgets.order import keep_order
 from seiswidgets.widgets.panels.picks_list import PicksList
 from seiswidgets.widgets.section_view.pane import SectionPane
 from seiswidgets.widgets.workspace import Workspace
@@ -177,7 +177,7 @@ class Picker(WithParts, VBox):
         self._drawn[pane] = shown
         pane.draw_lines(strokes(state, projection))
         pane.draw_marks(marks(state, projection, self.editor.cutoffs()))
-        pane.rubber = rubber(state, projection)
+        pane.rubber = rubber_band(state, projection)
 
     def _show_history(self, button, action, entry, keys):
         button.disabled = entry is None
@@ -206,9 +206,9 @@ class Picker(WithParts, VBox):
         section, event, window = self.workspace.section, self.snap, self.window
         self.editor.snap = self.editor.follow = None
         if event != OFF:
-            self.editor.snap = lambda point: snapped(section, point, event, window)
+            self.editor.snap = lambda point: snap_to_event(section, point, event, window)
             if self.follow:
-                self.editor.follow = lambda start, end: followed(section, start, end, event, max(20.0, 4 * window))
+                self.editor.follow = lambda start, end: follow_event(section, start, end, event, max(20.0, 4 * window))
 
     def _made_toolbar(self):
         modes = ToggleButtons(

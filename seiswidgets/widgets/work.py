@@ -1,29 +1,32 @@
-"""Everything that a user has done in an app, as one value, and as text that a browser can keep."""
+"""Everything that a user has done in an app, as one value and as text that a browser can keep."""
 
 import contextlib
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
-from traitlets import HasTraits, TraitError
+from traitlets import Bunch, HasTraits, TraitError
 
 from seiswidgets.errors import DataError, SeiswidgetsError
+from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
-from seiswidgets.interaction.drawing import FAULT, HORIZON, DraftLine, Drawing
+from seiswidgets.interaction.drawing import DraftLine, Drawing
 from seiswidgets.io.document import MOST_JSON_BYTES, Entry, json_text, parse_json
 from seiswidgets.io.session.file import session_document, session_fields
 from seiswidgets.io.session.session import Session
 from seiswidgets.io.session.sources import SectionSource
+from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.files.session_bar import drawing_of, session_of
 
-KEPT = Path("what the browser kept")  # where errors say that a text comes from
+KEPT = Path("the drawing kept by the browser")  # stands for a file's path in error messages
 
 
 @dataclass(frozen=True)
 class Work:
-    """The picks with their looks, the line being drawn, the plan, and how the app was set.
+    """The picks with their styles, the draft line, the plan, and the app's settings.
 
     Attributes
     ----------
@@ -35,31 +38,31 @@ class Work:
 
     drawing: Drawing = field(default_factory=Drawing)
     plan: Plan = field(default_factory=Plan)
-    settings: dict = field(default_factory=dict)
+    settings: dict[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, app) -> "Work":
-        """The work in an app as it is now."""
+    def of(cls, app: RestorationApp) -> "Work":
+        """Present work in an app."""
         settings = {name: getattr(owner, name) for owner, name in _settings_of(app)}
         return cls(app.workspace.drawing, app.workspace.plan, settings)
 
-    def put(self, app, section: Section, source: SectionSource | None) -> None:
-        """Continue this work in an app; if the app shows that section already, undo brings back what was drawn."""
+    def put(self, app: RestorationApp, section: Section, source: SectionSource | None) -> None:
+        """Continue this work in an app; undo brings back what was drawn there before."""
         app.workspace.open(section, self.drawing, source=source, plan=self.plan)
         for owner, name in _settings_of(app):
             if name in self.settings:
-                with contextlib.suppress(SeiswidgetsError, TraitError):  # of another version: the app's own stays
+                with contextlib.suppress(SeiswidgetsError, TraitError):  # another version wrote it: keep the app's own
                     setattr(owner, name, self.settings[name])
 
     def text(self, section: Section, sha256: str, source: SectionSource) -> str:
-        """The work as JSON: a session's document, and what a session does not hold.
+        """JSON text of the work: a session's document, the draft line and the settings.
 
         Raises
         ------
         PickError
             If a name contains an unpaired surrogate.
         """
-        session = session_of(Document(section, self.drawing, self.plan, source), sha256, KEPT)
+        session = session_of(Document(section, self.drawing, self.plan), source, sha256)
         line = self.drawing.draft
         return json_text(
             {
@@ -71,7 +74,7 @@ class Work:
 
     @classmethod
     def read(cls, text: str, section: Section) -> "Work":
-        """The work in a text.
+        """Read the work from a text.
 
         Raises
         ------
@@ -92,16 +95,16 @@ class Work:
         return cls(drawing, session.plan, entry.optional("settings", _settings, {}))
 
 
-def observe_work(app, callback: Callable) -> None:
-    """Call a function with each change of the work in an app."""
+def observe_work(app: RestorationApp, callback: Callable[[Bunch], None]) -> None:
+    """Call a function after each change of the work in an app."""
     app.workspace.observe(callback, ("document", "settled"))
     for owner, name in _settings_of(app):
         owner.observe(callback, name)
 
 
-def _settings_of(app) -> list[tuple[HasTraits, str]]:
-    """The traits that are kept besides the picks and the plan, each with the part that has it; no name comes twice."""
-    kept = {
+def _settings_of(app: RestorationApp) -> list[tuple[HasTraits, str]]:
+    """Traits kept besides the picks and the plan, each after the part that owns it; every name is unique."""
+    kept: dict[HasTraits, tuple[str, ...]] = {
         app: ("live",),
         app.picker: ("snap", "window", "follow"),
         app.panes.original: ("colours", "clip", "gain", "polarity"),
@@ -120,7 +123,7 @@ def _line(entry: Entry) -> DraftLine:
     return DraftLine(kind, points, entry.optional("name", Entry.text, None))
 
 
-def _settings(entry: Entry) -> dict:
+def _settings(entry: Entry) -> dict[str, Any]:
     for name, value in entry.members().items():
         if not isinstance(value, bool | str):
             entry[name].number()

@@ -1,13 +1,14 @@
-"""The workspace: the one owner of the section, the picks, the plan, the restoration and the session's path.
+"""The workspace: sole owner of the section, the picks, the plan, the restoration and the session's path.
 
-Views and panels read it, observe it, and send it edits; none of them keeps a copy that would have to be kept in step.
+Views and panels read it, observe it, and send it edits; none of them keeps a copy of its state.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
-from traitlets import Bool, HasTraits, Instance, observe, validate
+from traitlets import Bool, Bunch, HasTraits, Instance, observe, validate
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
@@ -16,7 +17,7 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document, EditHistory
 from seiswidgets.interaction.drawing import Drawing
-from seiswidgets.io.session.sources import SectionSource
+from seiswidgets.io.session.sources import FILE, SectionSource
 
 
 class Workspace(HasTraits):
@@ -35,14 +36,14 @@ class Workspace(HasTraits):
     Attributes
     ----------
     document : Document
-        Section, drawing, plan and source; changed by ``history`` alone. Observe it to follow all edits.
+        Section, drawing, plan and source; only ``history`` changes it. Observe it to follow all edits.
     history : EditHistory
     settled : bool
-        Whether the document is at rest; not while something is dragged.
+        False while something is being dragged.
     restoration : Restoration
-        The newest on the full mesh; may be set.
+        The newest restoration on the full mesh; may be set.
     session_path : Path or None
-        Where the work is kept; None if nowhere.
+        Path under which the work is saved; None if it is not.
     """
 
     document = Instance(Document)
@@ -69,12 +70,12 @@ class Workspace(HasTraits):
 
     @property
     def drawing(self) -> Drawing:
-        """All picks with their looks, even those that cannot be used, and the draft line."""
+        """All picks with their styles, unusable ones included, and the draft line."""
         return self.document.drawing
 
     @property
     def interpretation(self) -> Interpretation:
-        """Picks that are finished and valid; the same object as long as they do not change."""
+        """Finished and valid picks; the same object as long as they do not change."""
         return self.document.drawing.interpretation
 
     @property
@@ -84,7 +85,7 @@ class Workspace(HasTraits):
 
     @property
     def source(self) -> SectionSource | None:
-        """Where the section comes from."""
+        """Origin of the section."""
         return self.document.source
 
     @property
@@ -92,11 +93,11 @@ class Workspace(HasTraits):
         """The restoration that the document asks for."""
         return RestorationJob(self.section, self.interpretation, self.plan)
 
-    def edit(self, label: str, **changes) -> None:
-        """Change fields of the document as one edit; no change is no edit."""
+    def edit(self, label: str, **changes: Any) -> None:
+        """Change fields of the document as one edit, named in the tooltip of Undo; no change is no edit."""
         self.history.edit(label, **changes)
 
-    def change_plan(self, label: str, **choices) -> None:
+    def change_plan(self, label: str, **choices: Any) -> None:
         """Change choices of the plan as one edit."""
         self.edit(label, plan=replace(self.plan, **choices))
 
@@ -110,26 +111,27 @@ class Workspace(HasTraits):
         section : Section
         drawing : Drawing
         source : SectionSource, optional
-            Where the section comes from.
+            Origin of the section.
         plan : Plan, optional
-            The present steps and weights on the usual mesh, with no block held, if left out.
+            If left out, the present steps and weights on a mesh of default spacing; the held point stays if it lies
+            on the new section.
 
         Raises
         ------
         DataError
-            If a session cannot save what was drawn on the present section.
+            If a session cannot save the edits of the present section.
         """
         plan = plan or replace(self.plan, spacing=None, fixed=self._kept_point(section))
-        self.edit(f"open {section.name or 'a section'}", section=section, drawing=drawing, source=source, plan=plan)
+        self.edit(f"open {_title(section, source)}", section=section, drawing=drawing, source=source, plan=plan)
 
     def as_drawn(self, interpretation: Interpretation) -> Interpretation:
-        """The interpretation that becomes the present one where this one is loaded."""
+        """Interpretation that results from loading this one; the present one if they are equal."""
         if interpretation is self.interpretation:
             return interpretation  # not the same picks in another order, which would be an edit
         return self.drawing.with_interpretation(interpretation).interpretation
 
     def picks_fit(self, section: Section) -> bool:
-        """Whether the picks and the held point lie on another section too, in the same units."""
+        """Return whether the picks and the held point lie on another section too, in the same units."""
         same_units = (section.x_unit, section.z_unit) == (self.section.x_unit, self.section.z_unit)
         return same_units and self.drawing.lies_on(section) and self._kept_point(section) == self.plan.fixed
 
@@ -137,28 +139,33 @@ class Workspace(HasTraits):
         """Call a function before each change of section; it may raise to prevent the change."""
         self._guards.append(check)
 
-    def _kept_point(self, section):
+    def _kept_point(self, section: Section) -> tuple[float, float] | None:
         fixed = self.plan.fixed
         return fixed if fixed is not None and section.contains([fixed]).all() else None
 
-    def _check(self, document):
+    def _check(self, document: Document) -> None:
         if document.section is not self.section:
             for check in self._guards:
                 check()
 
-    def _publish(self):
+    def _publish(self) -> None:
         if not self.history.is_settled:
             self.settled = False
         self.document = self.history.document
         self.settled = self.history.is_settled
 
     @observe("document")
-    def _start_anew(self, change):
+    def _drop_restoration(self, change: Bunch) -> None:
         if isinstance(change.old, Document) and change.old.section is not change.new.section:
             self.restoration = Restoration(change.new.section)
 
     @validate("restoration")
-    def _valid_restoration(self, proposal):
+    def _valid_restoration(self, proposal: Bunch) -> Restoration:
         if proposal.value.original is not self.section:
             raise SettingError("the restoration is of another section; open that section first")
         return proposal.value
+
+
+def _title(section: Section, source: SectionSource | None) -> str:
+    """Short title of a section: its file's name, or its own."""
+    return Path(source.name).name if source and source.kind == FILE else section.name or "a section"

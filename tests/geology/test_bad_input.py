@@ -394,9 +394,7 @@ def test_too_fine_meshes(spacing, message):
 
 def test_too_coarse_meshes():
     restoration = sw.Restoration(SECTION, spacing=400)
-    with pytest.raises(
-        sw.SettingError, match=r"400 m makes only \d+ vertices; at least 30 .*: reduce spacing="
-    ):
+    with pytest.raises(sw.SettingError, match=r"400 m makes only \d+ vertices; at least 30 .*: reduce spacing="):
         restoration.flatten(sw.Horizon([(0, 400), (1500, 400)]))
     assert restoration.stages == ()
 

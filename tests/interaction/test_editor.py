@@ -16,7 +16,7 @@ from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import MODES
 from seiswidgets.interaction.gestures import DoubleClick, Key, Move, Press, Release
 from seiswidgets.interaction.projection import PaneProjection
-from seiswidgets.interaction.snapping import followed, snapped
+from seiswidgets.interaction.snapping import follow_event, snap_to_event
 from seiswidgets.interaction.viewport import Viewport
 
 SECTION = sw.Section(np.random.default_rng(1).normal(size=(61, 91)), dx=10.0, dz=10.0)  # 900 m x 600 m
@@ -745,8 +745,8 @@ def test_horizons_snap_and_faults_do_not():
     view = Viewport(case.section)
     editor = editor_of(
         view,
-        snap=lambda point: snapped(case.section, point, "peak", 6),
-        follow=lambda start, end: followed(case.section, start, end, "peak", 40),
+        snap=lambda point: snap_to_event(case.section, point, "peak", 6),
+        follow=lambda start, end: follow_event(case.section, start, end, "peak", 40),
     )
     (bed,) = case.interpretation.horizons[1].pieces
     editor.enter("horizon")
@@ -900,5 +900,5 @@ def test_random_gestures_from_nothing(actions):
 @SOON
 @given(st.lists(ACTIONS, min_size=40, max_size=60), st.sampled_from(["f", "h", "l"]))
 def test_random_gestures_on_a_drawing(actions, mode):
-    snap = lambda point: snapped(SECTION, point, "peak", 3)  # noqa: E731
+    snap = lambda point: snap_to_event(SECTION, point, "peak", 3)  # noqa: E731
     random_gestures([(Key, mode, frozenset()), *actions], PICKS, snap=snap)

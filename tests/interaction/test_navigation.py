@@ -12,7 +12,7 @@ VIEW = Viewport(sw.Section(np.zeros((200, 300)), dx=10, dz=5)).zoomed(3)
 def moved(*happenings, view=VIEW):
     navigation = Navigation()
     for message in happenings:
-        view = navigation.moved(view, message)
+        view = navigation.navigate(view, message)
     return view
 
 

@@ -5,9 +5,8 @@ import pytest
 from PIL import Image
 
 import seiswidgets as sw
-from seiswidgets.interaction.colour import resampled
+from seiswidgets.interaction.colour import encode_png, resampled
 from seiswidgets.interaction.overlay import Mark, Overlay
-from seiswidgets.widgets.section_view.canvas import encoded
 
 LEVELS, PALETTE = np.zeros((3, 4), np.uint8), np.zeros((256, 4), np.uint8)
 
@@ -45,5 +44,5 @@ def test_a_quick_picture_is_the_same_picture():
     rng = np.random.default_rng(0)
     levels, palette = rng.integers(0, 256, (30, 40), np.uint8), rng.integers(0, 256, (256, 4), np.uint8)
     for quick in (False, True):
-        picture = Image.open(BytesIO(encoded(levels, palette, quick))).convert("RGBA")
+        picture = Image.open(BytesIO(encode_png(levels, palette, quick))).convert("RGBA")
         assert (np.asarray(picture) == palette[levels]).all()

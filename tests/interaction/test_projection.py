@@ -21,14 +21,14 @@ def projection(case):
 def test_the_original_is_seen_as_it_is(case):
     projection = PaneProjection(Viewport(case.section))
     line = case.interpretation.faults[0].points
-    np.testing.assert_array_equal(projection.shown([(line, True)])[0], line)
+    np.testing.assert_array_equal(projection.lines([(line, True)])[0], line)
     np.testing.assert_array_equal(projection.path(line[0], line[-1])[0], line[[0, -1]])
     assert projection.to_original(line[0]) == tuple(line[0])
 
 
 def test_a_line_is_shown_where_its_points_are_restored_to(case, projection):
     line = case.interpretation.horizons[0].pieces[0][:2]
-    (shown,) = projection.shown([(line, False)])
+    (shown,) = projection.lines([(line, False)])
     shown = shown[np.isfinite(shown).all(axis=1)]
     ways = np.linspace(0.02, 0.98, 50)[:, None]
     there = projection.to_pane(line[0] + ways * (line[1] - line[0]))
@@ -38,13 +38,13 @@ def test_a_line_is_shown_where_its_points_are_restored_to(case, projection):
 def test_a_line_across_a_fault_is_interrupted_there(case, projection):
     x_min, x_max, z_min, z_max = case.section.extent
     level = (z_min + z_max) / 2
-    (shown,) = projection.shown([([(x_min, level), (x_max, level)], False)])
+    (shown,) = projection.lines([([(x_min, level), (x_max, level)], False)])
     assert np.isnan(shown).all(axis=1).sum() == 2  # one in between and one at the end
 
 
 def test_a_fault_is_shown_whole_on_one_of_its_sides(case, projection):
     fault = case.interpretation.faults[0].points
-    (shown,), (vertices,) = projection.shown([(fault, True)]), projection.vertices([(fault, True)])
+    (shown,), (vertices,) = projection.lines([(fault, True)]), projection.vertices([(fault, True)])
     assert np.isnan(shown).all(axis=1).sum() == 1
     np.testing.assert_allclose(vertices[0], shown[0], atol=1e-6)
     np.testing.assert_allclose(vertices[-1], shown[-2], atol=1e-6)
@@ -52,9 +52,9 @@ def test_a_fault_is_shown_whole_on_one_of_its_sides(case, projection):
 
 def test_many_lines_at_once_are_shown_as_each_alone(case, projection):
     lines = [(piece, False) for horizon in case.interpretation.horizons for piece in horizon.pieces]
-    for together, line in zip(projection.shown(lines), lines, strict=True):
-        np.testing.assert_array_equal(together, projection.shown([line])[0])
-    assert projection.shown([]) == projection.vertices([]) == []
+    for together, line in zip(projection.lines(lines), lines, strict=True):
+        np.testing.assert_array_equal(together, projection.lines([line])[0])
+    assert projection.lines([]) == projection.vertices([]) == []
 
 
 def test_a_path_and_its_way_back_are_the_straight_line(case, projection):

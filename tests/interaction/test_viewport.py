@@ -155,24 +155,24 @@ def test_the_exaggeration_of_a_time_section_is_of_rock():
 def test_a_frame_is_fitted_instead_of_the_section(view):
     x_min, x_max, z_min, z_max = view.whole
     frame = x_min - 100, x_max + 50, z_min, z_max + 200
-    framed = view.framed(frame)
+    framed = view.with_frame(frame)
     assert framed.window == framed.whole == frame
     assert framed.covered == view.whole
     closer = framed.zoomed(1.1, at=(0, 0))
     assert not closer.is_fitted
     assert closer.fitted() == framed
-    assert closer.framed(None).window == closer.window
-    assert framed.framed(None) == view
+    assert closer.with_frame(None).window == closer.window
+    assert framed.with_frame(None) == view
     farthest = framed.zoomed(1e-9)
     assert np.diff(farthest.window)[[0, 2]] == near(FARTHEST * np.diff(frame)[[0, 2]])
 
 
 def test_another_section_in_the_same_view():
     view, part = Viewport(DEPTH, 500, 400, 2), sw.Section(NOISE[:50], dx=25.0, dz=10.0, x0=700_000.0)
-    assert view.of(part) == Viewport(part, 500, 400, 2)
+    assert view.with_section(part) == Viewport(part, 500, 400, 2)
     closer = view.zoomed(2)
-    assert closer.of(part).window == closer.window
-    assert closer.of(TIME) == Viewport(TIME, 500, 400, 2)  # a window in metres means nothing there
+    assert closer.with_section(part).window == closer.window
+    assert closer.with_section(TIME) == Viewport(TIME, 500, 400, 2)  # a window in metres means nothing there
 
 
 def test_resizing(view):
@@ -222,7 +222,7 @@ def test_axes_name_their_units():
         (lambda view: Viewport(view.section, window=(0, np.inf, 1, 2)), "window must be"),
         (lambda view: Viewport(view.section, window=(0, 1, 2)), "window must be"),
         (lambda view: Viewport(view.section, frame=(0, 1, 3, 2)), "frame must be"),
-        (lambda view: view.framed("all"), "frame must be .* 'all'"),
+        (lambda view: view.with_frame("all"), "frame must be .* 'all'"),
     ],
 )
 def test_what_cannot_be_shown(change, message):

@@ -5,20 +5,32 @@ import shutil
 import ipywidgets
 import pytest
 
+from seiswidgets.widgets.ipycanvas_compat import CANVAS_MANAGER
 from tests.leftovers import ended, family
 from tests.widgets.appscreen import EMPTY, SHOWN, AppScreen
 from tests.widgets.bare import BareLayer
 from tests.widgets.browser import FLAGS, Notebook, Page, Server
+from tests.widgets.canvas_messages import CanvasMessage
 
 
 @pytest.fixture(autouse=True)
 def loud_callbacks(monkeypatch):
-    """Callbacks that fail, fail the test: ipywidgets would log that and go on."""
+    """Callbacks that fail, fail the test: ipywidgets would log that and go on, and has no switch for it."""
 
     def call(self, *args, **kwargs):
         return [callback(*args, **kwargs) for callback in self.callbacks]
 
     monkeypatch.setattr(ipywidgets.CallbackDispatcher, "__call__", call)
+
+
+@pytest.fixture
+def sent(monkeypatch):
+    """All messages to canvases, decoded; ipycanvas has no public way to read them."""
+    messages = []
+    monkeypatch.setattr(
+        CANVAS_MANAGER, "send", lambda content, buffers=None: messages.append(CanvasMessage.decode(buffers))
+    )
+    return messages
 
 
 @pytest.fixture(scope="session")

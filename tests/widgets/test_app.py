@@ -45,7 +45,7 @@ def app(new_app, case):
 
 
 def drawn_frames(app, monkeypatch):
-    """What is drawn from now on."""
+    """Snapshots drawn from now on."""
     frames, show = [], app.panes.show
 
     def noting(frame):
@@ -81,7 +81,7 @@ def test_picks_drawn_by_hand_restore_by_themselves(new_app, case):
     assert bed.flatness < case.section.dz / 10
     assert app.timeline.labels == ["unfault", "flatten"]
     assert app.timeline.time == 2
-    assert "area ratio" in app.reports._page.value
+    assert "area ratio" in app.reports.page.value
 
 
 def test_a_line_drawn_in_the_restored_pane_lies_where_the_restoration_says(app, case):
@@ -223,8 +223,8 @@ def test_what_is_wrong_is_said_in_the_app_and_beside_the_pick(app, case):
     assert app.wait(LONG)
     assert "<b>far</b>" in app.status.text
     assert "<b>far</b>" not in app.status._line.value
-    rows = {row._name.value: row for row in app.picker.list._rows["fault"]}
-    assert "&lt;b&gt;far&lt;/b&gt;" in rows["<b>far</b>"]._message.value
+    rows = app.picker.list.rows("fault")
+    assert "&lt;b&gt;far&lt;/b&gt;" in rows["<b>far</b>"].message.value
     assert app.restoration is before
     assert "seiswidgets-outdated" in app.panes.restored._dom_classes
     app.interpretation = case.interpretation
@@ -284,3 +284,18 @@ def test_the_app_of_a_time_section_and_settings_from_the_start(case):
     app.close()
     with pytest.raises(PickError, match="no fault called"):
         sw.Plan((sw.Step("unfault", ("F9",)),)).restore(section, case.interpretation)
+
+
+@pytest.mark.parametrize(
+    ("make", "misspelt", "hint"),
+    [
+        (lambda **settings: RestorationApp(sw.synthetic.tilt().section, **settings), "heigth", "height"),
+        (sw.Gallery, "whith_picks", "with_picks"),
+        (sw.StepList, "interpretations", "interpretation"),
+        (sw.WeightSliders, "weigths", "weights"),
+    ],
+    ids=["RestorationApp", "Gallery", "StepList", "WeightSliders"],
+)
+def test_a_misspelt_keyword_is_refused_with_a_suggestion(make, misspelt, hint):
+    with pytest.raises(TypeError, match=f"no keyword {misspelt}=; did you mean {hint}="):
+        make(**{misspelt: None})

@@ -12,7 +12,6 @@ import seiswidgets as sw
 from seiswidgets.geology.plan import RestorationJob
 from seiswidgets.widgets.closing import close_with_parts
 from seiswidgets.widgets.files.question import Question
-from seiswidgets.widgets.panels.pages import Pages
 
 LONG = 60  # seconds until a restoration must be done
 FRESH_VIEW = {"kind": "size", "width": 500, "height": 300, "ratio": 1, "fresh": True}
@@ -33,7 +32,7 @@ def picks():
 
 
 def shown(pane):
-    """What a page does that shows a pane: the pictures are painted on canvases of their own."""
+    """Do what a page does that shows a pane: paint the pictures on canvases of their own."""
     pane.layer._handle_custom_msg(FRESH_VIEW, [])
 
 
@@ -69,15 +68,15 @@ def app(section, tmp_path):
 def used_app(section, tmp_path):
     """With all tabs opened, a restoration shown, the session saved, and questions asked."""
     made = sw.RestorationApp(section, picks(), session=tmp_path / "work.json")
-    (tabs,) = [one for child in made.children for one in getattr(child, "children", ()) if isinstance(one, Pages)]
+    tabs = made.tabs
     for number in range(len(tabs.children)):
         tabs.selected_index = number
     np.save(tmp_path / "other.npy", np.zeros((30, 40)))
     for name in ("other.npy", "other.npy ", "nothing.npy"):  # each is looked at anew
         made.files.section.file.text.value = str(tmp_path / name)
         assert made.wait(LONG)
-    made.keeper.notice.ask("Sure?", {"Yes": lambda: None, "No": lambda: None})
-    made.keeper.notice.ask("Quite sure?", {"Yes": lambda: None})
+    made.session_bar.notice.ask("Sure?", {"Yes": lambda: None, "No": lambda: None})
+    made.session_bar.notice.ask("Quite sure?", {"Yes": lambda: None})
     for one in (made.panes.original, made.panes.restored):
         shown(one)
     assert made.wait(LONG)

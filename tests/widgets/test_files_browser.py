@@ -24,15 +24,14 @@ app
 EXPORTED = """
 app.interpretation, app.fixed, app.live = case.interpretation, case.fixed, True
 app.files.results.folder.value = "{0}-results"
-job = app.files.results.job
-report = job._report
-
-def slow(work, share):
-    while share > 0.5 and work.wanted:
-        time.sleep(0.01)
-    return report(work, share)
-
-job._report = slow
+from threading import Event
+job, pause = app.files.results.job, Event()
+report = job.report
+def wait_for_cancel(own, fraction):
+    while fraction > 0.5 and own.wanted:
+        pause.wait(0.05)
+    return report(own, fraction)
+job.report = wait_for_cancel
 """
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"
@@ -225,8 +224,8 @@ def open_by_path(app, path):
     other.check()
     app.page.get_by_label("x", exact=True).fill("73")
     app.page.keyboard.press("Tab")
-    app.page.get_by_text("has no positions of its traces: bytes 73 and 185").wait_for()
+    app.page.get_by_text("has no trace positions: bytes 73 and 185").wait_for()
     shoot(app, "file-panel")
     other.uncheck()
-    app.page.get_by_text("has no positions of its traces").wait_for(state="hidden")
+    app.page.get_by_text("has no trace positions").wait_for(state="hidden")
     app.page.get_by_role("button", name="Open section").click()

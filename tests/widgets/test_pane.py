@@ -1,52 +1,17 @@
 import json
-from dataclasses import dataclass
-from io import BytesIO
 
 import numpy as np
 import pytest
 from comm import DummyComm
-from ipycanvas.canvas import _CANVAS_MANAGER, COMMANDS
 from PIL import Image
 
 import seiswidgets as sw
 from seiswidgets.interaction.gestures import DoubleClick, Key, Move, Press, Release
 from seiswidgets.interaction.overlay import Mark, Overlay, Stroke
-from seiswidgets.widgets.section_view.canvas import held
-from seiswidgets.widgets.section_view.texture import FEW, MOST
+from seiswidgets.widgets.section_view.texture import MOST_PIXELS, MOST_PIXELS_MOVING
 
-NAMES = {number: name for name, number in COMMANDS.items()}
 SIZE = {"kind": "size", "width": 800, "height": 400, "ratio": 2, "fresh": True}
 QUIET = 2000  # bytes that a step of zooming or panning may send
-
-
-@dataclass
-class Drawing:
-    """A message to the canvases: its commands by name, each with its arguments, and its pictures."""
-
-    commands: list
-    pictures: list
-
-    @property
-    def names(self):
-        return [command[0] for command in self.commands]
-
-    def image(self, number=0):
-        """Red, green, blue and opacity of a picture."""
-        return np.asarray(Image.open(BytesIO(self.pictures[number])).convert("RGBA"))
-
-
-@pytest.fixture
-def sent(monkeypatch):
-    """All messages to canvases."""
-    messages = []
-
-    def send(content, buffers=None):
-        commands = json.loads(bytes(buffers[0]))
-        commands = commands if isinstance(commands[0], list) else [commands]
-        messages.append(Drawing([(NAMES[command[0]], *command[1:2]) for command in commands], buffers[1:]))
-
-    monkeypatch.setattr(_CANVAS_MANAGER, "send", send)
-    return messages
 
 
 @pytest.fixture
@@ -210,7 +175,7 @@ def test_other_colours_send_another_picture(section, sent, change):
 
 def test_a_large_section_is_decimated_and_sharpened(sent):
     pane = shown(sw.Section(np.random.default_rng(0).normal(size=(2000, 3000)).astype(np.float32), dx=1, dz=1))
-    assert sent[-1].image().size / 4 <= MOST
+    assert sent[-1].image().size / 4 <= MOST_PIXELS
     tell(pane, "wheel", x=400, y=200, steps=12)
     assert not sent[-1].pictures
     tell(pane, "rest")
@@ -266,7 +231,7 @@ def test_a_section_that_moves_is_sent_quickly_in_one_message_each(sent, publishe
         pane.show(restored(number), moving=True)
     assert len(sent) == 4
     assert not published  # no canvas made, closed or resized; the axes are the same
-    assert all(drawing.image().size / 4 <= FEW for drawing in sent)
+    assert all(drawing.image().size / 4 <= MOST_PIXELS_MOVING for drawing in sent)
     assert all(drawing.names.count("putImageData") == 1 for drawing in sent)
     pane.show(pane.section)
     assert len(sent) == 5
@@ -413,18 +378,6 @@ def test_other_keys_are_told_and_do_nothing_themselves(section, sent):
     assert [gesture.name for gesture in seen] == ["Enter", " ", "Escape"]
     tell(pane, "hover", x=1, y=1)
     assert isinstance(seen[-1], Move)
-
-
-def test_a_hold_survives_an_exception(section, sent):
-    pane = shown(section)
-    sent.clear()
-    with pytest.raises(ValueError, match="inside"), held():  # noqa: PT012
-        pane._painter.canvas[0].fill_rect(0, 0, 1, 1)
-        raise ValueError("inside")
-    assert not sent
-    assert not _CANVAS_MANAGER._caching
-    pane._painter.canvas[0].fill_rect(0, 0, 1, 1)
-    assert [drawing.names for drawing in sent] == [["switchCanvas"], ["fillRect"]]
 
 
 def test_a_section_with_little_data_is_drawn(sent):

@@ -6,8 +6,8 @@ from ipywidgets import HTML
 
 import seiswidgets as sw
 from seiswidgets.interaction.drawing import Drawing
+from seiswidgets.widgets.app import LazyTabs
 from seiswidgets.widgets.panels.controls import SolverControls
-from seiswidgets.widgets.panels.pages import Pages
 from seiswidgets.widgets.workspace import Workspace
 
 
@@ -18,7 +18,7 @@ def test_a_page_is_made_when_it_is_first_looked_at_and_once():
         made.append(name)
         return HTML(name)
 
-    pages = Pages(Picks=lambda: page("picks"), Weights=lambda: page("weights"))
+    pages = LazyTabs(Picks=lambda: page("picks"), Weights=lambda: page("weights"))
     assert (pages.titles, made) == (("Picks", "Weights"), ["picks"])
     for number in (1, 0, 1):
         pages.selected_index = number
@@ -30,12 +30,12 @@ def test_a_page_is_made_when_it_is_first_looked_at_and_once():
 
 def test_only_a_hand_moves_the_mesh_spacing():
     controls = SolverControls(Workspace(sw.synthetic.faulted_fold().section))
-    slider, middle = controls._slider, controls._slider.value
+    slider, middle = controls.slider, controls.slider.value
     slider.value = middle * 10 ** (0.5 * slider.step)  # as a page rounds what it is given
     assert controls.spacing is None
     slider.value = middle * 10**slider.step
     assert controls.spacing == pytest.approx(middle * 10**slider.step)
-    controls._usual.click()
+    controls.default_button.click()
     assert controls.spacing is None
     assert slider.value == pytest.approx(middle)
 
@@ -46,6 +46,6 @@ def test_the_mesh_spacing_suits_sections_of_any_size():
     controls = SolverControls(workspace)
     for section in (large, small):
         workspace.open(section, Drawing())
-        slider, usual = controls._slider, sw.Restoration(section).domain.spacing
+        slider, usual = controls.slider, sw.Restoration(section).domain.spacing
         np.testing.assert_allclose([10**slider.min, slider.value, 10**slider.max], [usual / 4, usual, 4 * usual])
         assert controls.spacing is None

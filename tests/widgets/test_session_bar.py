@@ -7,6 +7,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io import files
 from seiswidgets.io.session.autosave import find_versions, numbered_files
 from seiswidgets.widgets.app import RestorationApp
@@ -78,13 +79,13 @@ def draw_fault(app, points=FAULT):
 
 
 def names(path):
-    """Of the picks in the newest version."""
+    """Names of the picks in the newest version."""
     versions = find_versions(path)
     return [pick.name for pick in (*versions[0].session.faults, *versions[0].session.horizons)] if versions else []
 
 
 def choose(app, answer):
-    app.keeper.notice.answers[answer].click()
+    app.session_bar.notice.answers[answer].click()
     assert app.wait(LONG)
 
 
@@ -125,7 +126,7 @@ def test_a_point_held_is_work_too(new_app, path):
     app.close()
     assert find_versions(path)[0].session.fixed == pytest.approx((1000.0, 500.0))
     again = new_app(session=path)
-    assert ": 0 faults and 0 horizons, a point held (work.00000" in again.keeper.versions.options[0][0]
+    assert ": 0 faults and 0 horizons, a point held (work.00000" in again.session_bar.versions.options[0][0]
     choose(again, "Open")
     assert again.fixed == app.fixed
 
@@ -136,7 +137,7 @@ def test_what_is_dragged_is_saved_when_it_is_let_go(new_app, path):
     pane = app.panes.original
     press(pane, FAULT[0])
     drag_to(pane, (2100.0, 300.0))
-    app.keeper.end()
+    app.session_bar.end()
     assert find_versions(path)[0].session.faults[0].pieces == (tuple(FAULT),)
     release(pane, (2100.0, 300.0))
     app.session_path = path
@@ -162,10 +163,10 @@ def test_earlier_work_is_offered_and_opened(new_app, path, section):
     first.close()
     before = {file: file.read_bytes() for file in path.parent.iterdir()}
     again = new_app(session=path)
-    assert "holds earlier work" in again.keeper.notice.text
-    assert ": 1 fault and 0 horizons (work.00000" in again.keeper.versions.options[0][0]
+    assert "holds earlier work" in again.session_bar.notice.text
+    assert ": 1 fault and 0 horizons (work.00000" in again.session_bar.versions.options[0][0]
     draw_fault(again, OTHER)
-    again.keeper.end()
+    again.session_bar.end()
     assert {file: file.read_bytes() for file in path.parent.iterdir()} == before
     again.session_path = path
     choose(again, "Open")
@@ -185,7 +186,7 @@ def test_an_older_version_can_be_chosen(new_app, path):
     first.close()
     assert names(path) == ["F1", "F2"]
     again = new_app(session=path)
-    again.keeper.versions.value = again.keeper.versions.options[1][1]
+    again.session_bar.versions.value = again.session_bar.versions.options[1][1]
     choose(again, "Open")
     assert [pick.name for pick in again.picker.drawing.picks] == ["F1"]
 
@@ -197,11 +198,11 @@ def test_who_starts_anew_keeps_the_earlier_work_aside(new_app, path):
     first.close()
     again = new_app(session=path)
     choose(again, "Start anew")
-    assert "stays in" in again.keeper.notice.text
+    assert "stays in" in again.session_bar.notice.text
     draw_fault(again, OTHER)
     for number in range(12):
         again.fixed = (100.0 + number, 100.0)
-        wait_for(lambda: again.keeper._autosave.pending is None)
+        wait_for(lambda: again.session_bar.is_saved)
     assert len(numbered_files(path)) == 10
     assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].name == "F1"
 
@@ -211,14 +212,14 @@ def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_d
     app = new_app(session=path)
     full_disk.append("")
     draw_fault(app)
-    wait_for(lambda: app.keeper.news.text)
-    assert "No space left on device" in app.keeper.news.text
-    assert "stays in memory" in app.keeper.news.text
-    assert app.status.text != app.keeper.news.text
+    wait_for(lambda: app.session_bar.news.text)
+    assert "No space left on device" in app.session_bar.news.text
+    assert "stay in memory" in app.session_bar.news.text
+    assert app.status.text != app.session_bar.news.text
     assert [fault.name for fault in app.interpretation.faults] == ["F1"]
     full_disk.clear()
     wait_for(lambda: names(path) == ["F1"])
-    wait_for(lambda: "Saved again" in app.keeper.news.text)
+    wait_for(lambda: "Saved again" in app.session_bar.news.text)
 
 
 @pytest.mark.usefixtures("quick")
@@ -226,9 +227,9 @@ def test_from_a_full_disk_the_work_goes_to_another_path(new_app, path, full_disk
     app = new_app(session=path)
     full_disk.append(f"{path.stem}.")
     draw_fault(app)
-    wait_for(lambda: app.keeper.news.text)
+    wait_for(lambda: app.session_bar.news.text)
     app.session_path = path.with_name("other.json")
-    assert not app.keeper.news.text
+    assert not app.session_bar.news.text
     wait_for(lambda: names(path.with_name("other.json")) == ["F1"])
     assert names(path) == []
 
@@ -274,17 +275,17 @@ def test_the_picks_alone_are_taken_where_the_section_is_gone(new_app, path, sect
     other = sw.Section(section.amplitude * 2, section.dx, section.dz)
     again = new_app(other, session=path, source=None)
     choose(again, "Open")
-    assert "does not exist" in again.keeper.notice.text
+    assert "does not exist" in again.session_bar.notice.text
     choose(again, "Picks only")
     assert again.section is other
     assert again.picker.drawing.picks == first.picker.drawing.picks
     small = new_app(sw.Section(section.amplitude[:9, :9], section.dx, section.dz), source=None)
     small.session_path = path
     choose(small, "Picks only")
-    assert "do not lie on the section" in small.keeper.notice.text
-    assert set(small.keeper.notice.answers) == {"Open", "Picks only", "Start anew"}
+    assert "do not lie on the section" in small.session_bar.notice.text
+    assert set(small.session_bar.notice.answers) == {"Open", "Picks only", "Start anew"}
     assert again.session_path is None
-    assert "Another app keeps its work" in again.keeper.notice.text
+    assert "Another app saves its work" in again.session_bar.notice.text
 
 
 def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, section, tmp_path):
@@ -296,7 +297,7 @@ def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, sect
     first.close()
     again = new_app(sw.synthetic.tilt().section, session=folder / "work.json", source=None)
     choose(again, "Open")
-    assert "outside the session's folder" in again.keeper.notice.text
+    assert "outside the session's folder" in again.session_bar.notice.text
     choose(again, "Back")
     choose(again, "Open")
     choose(again, "Read it")
@@ -314,7 +315,7 @@ def test_another_section_sets_the_work_on_the_first_aside(new_app, path, full_di
     full_disk.clear()
     app.section = other
     aside = path.with_name("work.before-000001.json")
-    assert str(aside) in app.keeper.notice.text
+    assert str(aside) in app.session_bar.notice.text
     app.workspace.open(other, app.picker.drawing)
     draw_fault(app, [(500.0, 200.0), (800.0, 700.0)])
     app.close()
@@ -325,7 +326,7 @@ def test_another_section_sets_the_work_on_the_first_aside(new_app, path, full_di
 def test_versions_that_cannot_be_opened_are_not_written_over_unasked(new_app, path):
     path.with_name("work.000003.json").write_text('{"format": "seiswidgets session", "version": 99}')
     app = new_app(session=path)
-    assert "none that can be opened" in app.keeper.notice.text
+    assert "none that can be opened" in app.session_bar.notice.text
     draw_fault(app)
     choose(app, "Start anew")
     app.close()
@@ -338,8 +339,7 @@ def test_versions_that_cannot_be_opened_are_not_written_over_unasked(new_app, pa
 
 def keep_here(app):
     """Press the button in the tab File."""
-    _, button = app.files.session.children[0].children
-    button.click()
+    app.files.session.keep_button.click()
 
 
 def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
@@ -348,7 +348,7 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
         app.session_path = tmp_path / "work.txt"
     with pytest.raises(DataError, match="home"):
         app.session_path = "~nobody-of-that-name/work.json"
-    with pytest.raises(DataError, match="there is no folder"):
+    with pytest.raises(DataError, match="does not exist"):
         app.session_path = tmp_path / "none" / "work.json"
     app.files.session.path.value = "work.txt"
     keep_here(app)
@@ -359,7 +359,7 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     assert f"Every edit is saved in {tmp_path / 'work.json'}" in app.files.session.notice.text
     draw_fault(app)
     app.session_path = tmp_path / "work.json"
-    assert app.keeper.notice.answers == {}  # about its own work it does not ask
+    assert app.session_bar.notice.answers == {}  # about its own work it does not ask
     app.session_path = None
     assert app.session_path is None
     keep_here(app)
@@ -369,4 +369,60 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     app.files.session.path.value = ""
     keep_here(app)
     assert app.session_path is None
-    assert "Nothing is saved" in app.files.session.notice.text
+    assert "are not saved any more" in app.files.session.notice.text
+
+
+@pytest.mark.usefixtures("quick")
+def test_undoing_a_change_of_section_continues_the_first_ones_session(new_app, path, section):
+    app = new_app(session=path)
+    draw_fault(app)
+    drawing = app.picker.drawing
+    wait_for(lambda: app.session_bar.is_saved)
+    other = sw.synthetic.tilt().section
+    app.workspace.open(other, Drawing())
+    assert "work.before-000001.json" in app.session_bar.notice.text
+    draw_fault(app, [(500.0, 200.0), (800.0, 700.0)])
+    while app.section is other:
+        app.picker.editor.undo()
+    assert (app.section, app.picker.drawing) == (section, drawing)
+    theirs = path.with_name("work.before-000002.json")
+    assert str(theirs) in app.session_bar.notice.text
+    np.testing.assert_array_equal(sw.open_session(theirs).open_section().amplitude, other.amplitude)
+    assert app.session_path == path
+    draw_fault(app, OTHER)
+    app.close()
+    assert names(path) == ["F1", "F2"]
+    np.testing.assert_array_equal(find_versions(path)[0].session.open_section().amplitude, section.amplitude)
+    assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].pieces == (tuple(FAULT),)
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_section_without_work_leaves_none_aside(new_app, path, section, tmp_path):
+    app = new_app(session=path)
+    draw_fault(app)
+    app.workspace.open(sw.synthetic.tilt().section, Drawing())
+    app.picker.editor.undo()
+    assert app.section is section
+    assert app.session_bar.notice.text == ""
+    app.close()
+    assert names(path) == ["F1"]
+    assert len(list(tmp_path.glob("*.before-*"))) == 1
+
+
+@pytest.mark.usefixtures("quick")
+def test_undoing_a_change_of_section_is_refused_while_the_work_cannot_be_saved(new_app, path, section, full_disk):
+    app = new_app(session=path)
+    other, history = sw.synthetic.tilt().section, app.workspace.history
+    app.section = other
+    app.interpretation = sw.Interpretation([sw.Fault([(500.0, 200.0), (800.0, 700.0)], "F1")])
+    app.fixed = (100.0, 100.0)
+    full_disk.append("")
+    keys(app.panes.original, "z", "z", modifiers=["ctrl"])
+    assert history.next_undo.document.section is section
+    with pytest.raises(DataError, match="No space left"):
+        app.picker.editor.undo()
+    assert (app.section, history.undo_count, history.redo_count) == (other, 1, 2)
+    assert "This section stays, because its work cannot be saved" in app.session_bar.notice.text
+    full_disk.clear()
+    app.picker.editor.undo()
+    assert app.section is section

@@ -33,21 +33,21 @@ def focused(monkeypatch):
 
 
 def rows(steps):
-    return steps._table.children
+    return steps.rows
 
 
 def adders(steps):
-    return steps.children[-1].children
+    return list(steps.add_buttons.values())
 
 
 def labels(row):
-    return [label for label, _ in row._choice.options]
+    return [label for label, _ in row.choice.options]
 
 
 def test_it_begins_with_the_steps_of_a_plan(steps):
     assert steps.steps == sw.Plan().steps
-    assert [row._on.description for row in rows(steps)] == [UNFAULT, FLATTEN]
-    assert [row._datum.layout.display for row in rows(steps)] == ["none", ""]
+    assert [row.enabled.description for row in rows(steps)] == [UNFAULT, FLATTEN]
+    assert [row.datum.layout.display for row in rows(steps)] == ["none", ""]
 
 
 def test_choices_are_the_picks_that_there_are_as_text(steps):
@@ -58,14 +58,14 @@ def test_choices_are_the_picks_that_there_are_as_text(steps):
 
 def test_each_control_changes_its_step_once(steps, told):
     unfault, flatten = rows(steps)
-    unfault._choice.value = (EVIL,)
-    flatten._on.value = False
-    flatten._datum.value = " 1500.5 "
-    flatten._choice.value = ("H2",)
+    unfault.choice.value = (EVIL,)
+    flatten.enabled.value = False
+    flatten.datum.value = " 1500.5 "
+    flatten.choice.value = ("H2",)
     assert len(told) == 4
     assert steps.steps == (sw.Step(UNFAULT, (EVIL,)), sw.Step(FLATTEN, ("H2",), 1500.5, on=False))
-    flatten._datum.value = ""
-    flatten._choice.value = ()
+    flatten.datum.value = ""
+    flatten.choice.value = ()
     assert steps.steps[1] == sw.Step(FLATTEN, on=False)
 
 
@@ -74,9 +74,9 @@ def test_steps_set_from_code_are_shown_with_one_notification(steps, told):
     steps.steps = asked
     assert told == [asked]
     assert [row.step for row in rows(steps)] == list(asked)
-    assert [row._datum.value for row in rows(steps)] == ["0.1", "", "1500"]
-    assert [row._choice.value for row in rows(steps)] == [("H1",), ("F1",), ("H2",)]
-    assert [row._on.value for row in rows(steps)] == [False, True, True]
+    assert [row.datum.value for row in rows(steps)] == ["0.1", "", "1500"]
+    assert [row.choice.value for row in rows(steps)] == [("H1",), ("F1",), ("H2",)]
+    assert [row.enabled.value for row in rows(steps)] == [False, True, True]
 
 
 def test_rows_are_used_again(steps):
@@ -91,7 +91,7 @@ def test_rows_are_used_again(steps):
 def test_a_row_that_is_gone_is_not_listened_to(steps):
     gone = rows(steps)[1]
     steps.steps = steps.steps[:1]
-    gone._datum.value = "12"
+    gone.datum.value = "12"
     assert steps.steps == (sw.Step(UNFAULT),)
 
 
@@ -135,64 +135,64 @@ def test_add_and_remove(steps, told, focused):
 @pytest.mark.parametrize("entry", ["abc", "12 m", "nan", "1e999", "<b>"])
 def test_a_wrong_datum_is_said_beside_it_and_the_last_good_one_kept(steps, told, entry):
     row = rows(steps)[1]
-    row._datum.value = "1500"
-    row._datum.value = entry
+    row.datum.value = "1500"
+    row.datum.value = entry
     assert steps.steps[1].datum == 1500
     assert len(told) == 1
-    assert row._datum.value == entry
-    assert row._error.layout.display == ""
-    assert "datum must be a finite number" in row._error.value
-    assert "1500 ms is kept" in row._error.value
-    assert "<b>" not in row._error.value
-    row._datum.value = "1600"
-    assert row._error.layout.display == "none"
+    assert row.datum.value == entry
+    assert row.error.layout.display == ""
+    assert "datum must be a finite number" in row.error.value
+    assert "1500 ms is kept" in row.error.value
+    assert "<b>" not in row.error.value
+    row.datum.value = "1600"
+    assert row.error.layout.display == "none"
     assert steps.steps[1].datum == 1600
 
 
 def test_the_datum_is_labelled_with_its_unit(steps):
-    assert rows(steps)[1]._datum.description == "datum (ms)"
+    assert rows(steps)[1].datum.description == "datum (ms)"
     steps.z_unit = "m"
-    assert rows(steps)[1]._datum.description == "datum (m)"
+    assert rows(steps)[1].datum.description == "datum (m)"
 
 
 def test_a_datum_loses_no_digits(steps, told):
     datum = float(np.random.default_rng(0).uniform(1000, 2000))
     steps.steps = (sw.Step(FLATTEN, datum=datum),)
-    assert float(rows(steps)[0]._datum.value) == datum
+    assert float(rows(steps)[0].datum.value) == datum
     assert len(told) == 1
 
 
 def test_picks_that_are_gone_stay_in_the_step_and_are_shown_as_missing(steps, told):
     unfault, flatten = rows(steps)
-    unfault._choice.value, flatten._choice.value = ("F1",), ("H2",)
+    unfault.choice.value, flatten.choice.value = ("F1",), ("H2",)
     asked = steps.steps
     told.clear()
     steps.interpretation = sw.Interpretation([F2], [H2])
     assert steps.steps == asked
     assert told == []
     assert labels(unfault) == ["all faults", EVIL, "missing: F1"]
-    assert unfault._choice.label == "missing: F1"
+    assert unfault.choice.label == "missing: F1"
     assert labels(flatten) == ["first horizon", "H2"]
     steps.interpretation = PICKS
     assert labels(unfault) == ["all faults", "F1", EVIL]
-    assert unfault._choice.value == ("F1",)
+    assert unfault.choice.value == ("F1",)
 
 
 def test_several_picks_are_one_more_choice(steps):
     steps.steps = (sw.Step(UNFAULT, ("F1", "F9")),)
     (row,) = rows(steps)
-    assert row._choice.label == "F1, missing: F9"
-    row._choice.value = ()
+    assert row.choice.label == "F1, missing: F9"
+    row.choice.value = ()
     assert steps.steps == (sw.Step(UNFAULT),)
     assert labels(row) == ["all faults", "F1", EVIL]
 
 
 def test_what_is_being_typed_survives_new_picks(steps):
     row = rows(steps)[1]
-    row._datum.value = "12x"
+    row.datum.value = "12x"
     steps.interpretation = sw.Interpretation([F1], [H1])
-    assert row._datum.value == "12x"
-    assert row._error.value
+    assert row.datum.value == "12x"
+    assert row.error.value
 
 
 def test_what_is_no_step_is_refused(steps):

@@ -9,8 +9,9 @@ from PIL import Image
 
 import seiswidgets as sw
 from seiswidgets.widgets import restorer
-from seiswidgets.widgets.app import CHANGED, RestorationApp
+from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.linked_panes import LinkedPanes
+from seiswidgets.widgets.live_restoration import OUTDATED
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.picker import Picker
 from seiswidgets.widgets.section_view.still import LEFT, SIZE, TOP
@@ -164,7 +165,7 @@ def test_findings_come_first_in_the_report(unfaulted):
     assert "background: #d32f2f" in report._repr_html_().split("<tr>")[2]
     reports = Reports()
     reports.show(found)
-    page = reports._page.value
+    page = reports.page.value
     assert page.index("&lt;img") < page.index(LOOSE.text) < page.index("<table")
     assert page.count(LOOSE.text) == 1
     assert "<img" not in page
@@ -182,7 +183,7 @@ def test_a_pick_is_marked_with_its_worst_finding(case):
 
 
 def message(picker, kind):
-    return picker.list._rows[kind][0]._message
+    return next(iter(picker.list.rows(kind).values())).message
 
 
 @pytest.fixture
@@ -218,7 +219,7 @@ def test_a_result_that_did_not_settle_does_not_look_like_a_good_one(new_app, uns
     assert "did not settle" in app.status._line.value
     assert 'role="alert"' in app.status._line.value
     assert app.panes.restored.badge.severity == "problem"
-    assert "did not settle" in app.reports._page.value.split("<table")[0]
+    assert "did not settle" in app.reports.page.value.split("<table")[0]
 
 
 def test_contradicting_picks_are_a_problem_in_the_app(app, case):
@@ -272,18 +273,18 @@ def test_a_verdict_on_other_picks_is_withdrawn(app):
     app.live = False
     app.restoration = with_report(app.restoration, findings=(APART,))
     app.weights = sw.Weights(stitch=33.0)
-    assert app.status.text == CHANGED
+    assert app.status.text == OUTDATED
     assert message(app.picker, "horizon").layout.display == "none"
     app.restore()
     app.cancel()
     assert app.wait(LONG)
-    assert app.status.text == CHANGED
+    assert app.status.text == OUTDATED
 
 
 def test_picks_that_are_not_finished_are_not_scolded(app, case):
     above = sw.Fault([(3000.0, 50.0), (3100.0, 300.0)], "F2")
     app.interpretation = sw.Interpretation([*case.interpretation.faults, above], case.interpretation.horizons)
     assert app.wait(LONG)
-    said = (app.status._line.value, *(row._message.value for row in app.picker.list._rows["fault"]))
+    said = (app.status._line.value, *(row.message.value for row in app.picker.list.rows("fault").values()))
     assert "F2" in "".join(said)
     assert not any('role="alert"' in text or "problem" in text for text in said)

@@ -1,1 +1,1 @@
-"""The panels beside the panes: picks, weights, steps, display and solver controls, and reports."""
+"""Panels beside the panes: picks, weights, steps, display and solver controls, and reports."""

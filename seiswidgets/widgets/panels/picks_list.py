@@ -1,53 +1,62 @@
-"""The list of picks beside a section: names, colours, visibility, deletion, and what is wrong with each."""
+"""List of the picks beside a section: names, colours, visibility, deletion, and findings about each."""
 
 from collections.abc import Callable
 from html import escape
 
-from ipywidgets import HTML, Button, ColorPicker, HBox, Layout, Text, ToggleButton, VBox
+from ipywidgets import HTML, Button, ColorPicker, HBox, Layout, Text, ToggleButton, VBox, Widget
+from traitlets import Bunch
 
 from seiswidgets.errors import SeiswidgetsError
-from seiswidgets.interaction.drawing import FAULT, HORIZON, Pick
+from seiswidgets.geology.picks import FAULT, HORIZON
+from seiswidgets.interaction.drawing import Pick
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.severity import remark
 
 TITLES = {FAULT: "Faults", HORIZON: "Horizons"}
 NONE_YET = " <i>none yet: choose {} and click along one</i>"
-NARROW = {"width": "34px", "min_width": "34px", "padding": "0"}  # a Layout would be shared by all apps
+NARROW = {"width": "34px", "min_width": "34px", "padding": "0"}  # not a Layout, which all apps would share
 
 
 class PicksList(VBox):
-    """A row for each pick of a editor; what is changed in it is an edit, which can be undone.
+    """A row for each pick of an editor; changes in a row are edits, which can be undone.
 
     Parameters
     ----------
     editor : PickEditor
+        Editor of the picks.
     changed : callable()
         Called after each edit.
     """
 
+    children: tuple[Widget, ...]
+
     def __init__(self, editor: PickEditor, changed: Callable[[], None]):
-        self._pen, self._changed = editor, changed
-        self._rows = {FAULT: [], HORIZON: []}
+        self.editor, self._changed = editor, changed
+        self._rows: dict[str, list[PickRow]] = {FAULT: [], HORIZON: []}
         self._titles = {kind: HTML() for kind in TITLES}
         super().__init__()
         self.update({})
 
     def update(self, complaints: dict[str, tuple[str, str]]) -> None:
-        """Show the editor's picks as they are, and beside each its complaint: a severity and a text, by name."""
-        children = []
+        """Show the editor's picks, each with its complaint: a severity and a text, by the name of the pick."""
+        children: list[Widget] = []
         for kind, rows in self._rows.items():
-            picks = [pick for pick in self._pen.drawing.picks if pick.kind == kind]
-            rows.extend(_Row(self) for _ in range(len(picks) - len(rows)))
+            picks = [pick for pick in self.editor.drawing.picks if pick.kind == kind]
+            rows.extend(PickRow(self) for _ in range(len(picks) - len(rows)))
             for row, pick in zip(rows, picks, strict=False):
-                row.update(pick, self.is_chosen(pick), complaints.get(pick.name))
+                row.update(pick, self.is_selected(pick), complaints.get(pick.name))
             self._titles[kind].value = f"<b>{TITLES[kind]}</b>" + ("" if picks else NONE_YET.format(kind.title()))
             children += [self._titles[kind], *rows[: len(picks)]]
         if tuple(children) != self.children:
-            self.children = children
+            self.children = tuple(children)
 
-    def edit(self, action: Callable[..., None], *arguments) -> str:
-        """Make an edit, and return what is wrong with it, if anything is."""
+    def rows(self, kind: str) -> dict[str, "PickRow"]:
+        """Rows of the picks of a kind, by name."""
+        return {row.name.value: row for row in self._rows[kind] if row in self.children}
+
+    def edit(self, action: Callable[..., None], *arguments: object) -> str:
+        """Make an edit; return the message of its error, "" if there is none."""
         try:
             action(*arguments)
         except SeiswidgetsError as error:
@@ -56,71 +65,74 @@ class PicksList(VBox):
             self._changed()
         return ""
 
-    @property
-    def editor(self) -> PickEditor:
-        """Whose picks are listed."""
-        return self._pen
-
-    def is_chosen(self, pick: Pick) -> bool:
-        """Whether a pick, or a part of it, is selected."""
-        chosen = self._pen.state.selection
-        return chosen is not None and (chosen.kind, chosen.name) == (pick.kind, pick.name)
+    def is_selected(self, pick: Pick) -> bool:
+        """Return whether a pick, or a part of it, is selected."""
+        selection = self.editor.state.selection
+        return selection is not None and (selection.kind, selection.name) == (pick.kind, pick.name)
 
 
-class _Row(VBox):
-    """One pick."""
+class PickRow(VBox):
+    """Row of one pick.
 
-    def __init__(self, owner):
+    Attributes
+    ----------
+    select, colour, visible, name, delete : ToggleButton, ColorPicker, ToggleButton, Text, Button
+        Controls of the pick.
+    message : HTML
+        The worst finding about it, or an error.
+    """
+
+    def __init__(self, owner: PicksList):
         self._owner, self._pick = owner, Pick(FAULT, "", (), "")
-        self._choose = ToggleButton(icon="crosshairs", layout=NARROW)
-        self._colour = ColorPicker(concise=True, layout=Layout(width="32px", min_width="32px"))
-        self._visible = ToggleButton(icon="eye", layout=NARROW)
-        self._name = Text(continuous_update=False, layout=Layout(flex="1 1 auto", width="auto", min_width="60px"))
-        self._delete = Button(icon="trash", layout=NARROW)
-        self._message = HTML(layout=Layout(display="none"))
-        line = HBox([self._choose, self._colour, self._visible, self._name, self._delete])
-        super().__init__([line, self._message])
-        self._choose.observe(self._on_choose, "value")
-        self._colour.observe(self._on_colour, "value")
-        self._visible.observe(self._on_visible, "value")
-        self._name.observe(self._on_name, "value")
-        self._delete.on_click(lambda _: self._edit(owner.editor.delete))
+        self.select = ToggleButton(icon="crosshairs", layout=NARROW)
+        self.colour = ColorPicker(concise=True, layout=Layout(width="32px", min_width="32px"))
+        self.visible = ToggleButton(icon="eye", layout=NARROW)
+        self.name = Text(continuous_update=False, layout=Layout(flex="1 1 auto", width="auto", min_width="60px"))
+        self.delete = Button(icon="trash", layout=NARROW)
+        self.message = HTML(layout=Layout(display="none"))
+        line = HBox([self.select, self.colour, self.visible, self.name, self.delete])
+        super().__init__([line, self.message])
+        self.select.observe(self._take_selected, "value")
+        self.colour.observe(self._take_colour, "value")
+        self.visible.observe(self._take_visible, "value")
+        self.name.observe(self._take_name, "value")
+        self.delete.on_click(lambda _: self._edit(owner.editor.delete))
 
-    def update(self, pick: Pick, chosen: bool, complaint: tuple[str, str] | None):
-        """Show a pick."""
-        self._pick = pick  # first: a control that is made to show it then changes nothing
-        self._name.value, self._visible.value, self._choose.value = pick.name, pick.visible, chosen
-        self._colour.value = pick.colour
-        self._visible.icon = "eye" if pick.visible else "eye-slash"
-        act = "hide" if pick.visible else "show"
-        self._choose.tooltip = f"select this {pick.kind}: a further line becomes a piece of a selected horizon"
-        self._visible.tooltip = f"{act} this {pick.kind}; hidden picks take part in the restoration"
-        self._name.tooltip = f"name of this {pick.kind}"
-        self._delete.tooltip = f"delete this {pick.kind}; undo brings it back"
-        self._say(remark(*complaint) if complaint else "")
+    def update(self, pick: Pick, selected: bool, complaint: tuple[str, str] | None) -> None:
+        """Show a pick, whether it is selected, and its complaint."""
+        self._pick = pick  # first, so that the controls that show it see no difference and make no edit
+        self.name.value, self.visible.value, self.select.value = pick.name, pick.visible, selected
+        self.colour.value = pick.colour
+        self.visible.icon = "eye" if pick.visible else "eye-slash"
+        action = "hide" if pick.visible else "show"
+        self.select.tooltip = f"select this {pick.kind}; the next line drawn becomes a piece of a selected horizon"
+        self.visible.tooltip = f"{action} this {pick.kind}; hidden picks are restored too"
+        self.name.tooltip = f"name of this {pick.kind}"
+        self.delete.tooltip = f"delete this {pick.kind}; undo brings it back"
+        self._show_message(remark(*complaint) if complaint else "")
 
-    def _say(self, html):
-        self._message.value = html
-        self._message.layout.display = "" if html else "none"
+    def _show_message(self, html: str) -> None:
+        self.message.value = html
+        self.message.layout.display = "" if html else "none"
 
-    def _edit(self, action, *arguments):
-        wrong = self._owner.edit(action, self._pick.kind, self._pick.name, *arguments)
-        if wrong:
-            self._say(TROUBLE.format(escape(wrong)))
+    def _edit(self, action: Callable[..., None], *arguments: object) -> None:
+        error = self._owner.edit(action, self._pick.kind, self._pick.name, *arguments)
+        if error:
+            self._show_message(TROUBLE.format(escape(error)))
 
-    def _on_choose(self, change):
-        if change.new != self._owner.is_chosen(self._pick):
+    def _take_selected(self, change: Bunch) -> None:
+        if change.new != self._owner.is_selected(self._pick):
             editor = self._owner.editor
             self._edit(editor.select if change.new else lambda kind, name: editor.deselect())
 
-    def _on_colour(self, change):
+    def _take_colour(self, change: Bunch) -> None:
         if change.new != self._pick.colour:
             self._edit(self._owner.editor.recolour, change.new)
 
-    def _on_visible(self, change):
+    def _take_visible(self, change: Bunch) -> None:
         if change.new != self._pick.visible:
             self._edit(self._owner.editor.show, change.new)
 
-    def _on_name(self, change):
+    def _take_name(self, change: Bunch) -> None:
         if change.new != self._pick.name:
             self._edit(self._owner.editor.rename, change.new)

@@ -1,4 +1,4 @@
-"""The reports of all stages of a restoration."""
+"""Reports on the stages of a restoration."""
 
 from dataclasses import replace
 
@@ -13,14 +13,19 @@ NOTHING = HINT.format("Nothing has been restored yet.")
 
 
 class Reports(VBox):
-    """What each stage has achieved, in numbers with their units."""
+    """Findings and measures of each stage, in numbers with their units.
 
-    def __init__(self):
-        self._page = HTML(NOTHING)
-        super().__init__([self._page])
+    Attributes
+    ----------
+    page : HTML
+    """
+
+    def __init__(self) -> None:
+        self.page = HTML(NOTHING)
+        super().__init__([self.page])
 
     def show(self, restoration: Restoration) -> None:
-        """Show the findings of a restoration, worst first, and the reports of its stages below."""
+        """Show the findings of a restoration, worst first, and below them the reports on its stages."""
         remarks = [remark(finding.severity, finding.text, title_of(finding)) for finding in findings_of(restoration)]
         tables = [replace(stage.report, findings=())._repr_html_() for stage in restoration.stages]
-        self._page.value = "".join([*remarks, *tables]) or NOTHING
+        self.page.value = "".join([*remarks, *tables]) or NOTHING

@@ -1,22 +1,23 @@
-"""The weights of the energy's terms, on sliders."""
+"""Weights of the energy's terms, on sliders."""
 
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 from ipywidgets import HTML, Button, FloatLogSlider, HBox, Label, Layout, VBox
-from traitlets import Instance, observe
+from traitlets import Bunch, Instance, observe
 
 from seiswidgets.geology.weights import Weights
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.key_guard import KeyGuard
 
 LOWEST, HIGHEST = -2, 3  # powers of 10
-STEP = 0.05  # of the power: twenty to a factor of ten
+STEP = 0.05  # of the power: twenty steps per factor of ten
 
 
 @dataclass(frozen=True)
 class Term:
-    """A weight's name in `Weights`, its symbol in the paper, a plain name, and a sentence about it."""
+    """A weight: its field in `Weights`, its symbol in the paper, a plain name, and a sentence about it."""
 
     field: str
     symbol: str
@@ -42,9 +43,9 @@ GROUPS = {
 
 
 class WeightSliders(WithParts, VBox):
-    """The weights on logarithmic sliders from 0.01 to 1,000, under the paper's symbols, and a button that resets them.
+    """Logarithmic sliders from 0.01 to 1,000, labelled with the paper's symbols, and a button that resets them.
 
-    A weight that is set from code and has no place on its slider, as 0, is kept until that slider is moved. With the
+    A weight set from code that is off its slider's scale, such as 0, is kept until that slider is moved. With the
     keyboard: Tab goes from slider to slider, arrows and Page Up and Down move one.
 
     Parameters
@@ -55,20 +56,30 @@ class WeightSliders(WithParts, VBox):
     ----------
     weights : Weights
         May be set.
+    sliders, readouts : dicts of FloatLogSlider and of Label
+        Controls of each weight, by its field in `Weights`.
+    reset_button : Button
+
+    Raises
+    ------
+    TypeError
+        If a keyword argument does not exist.
     """
 
     weights = Instance(Weights)
 
-    def __init__(self, weights: Weights | None = None, **traits):
-        self._sliders, self._readouts = {}, {}
+    def __init__(self, weights: Weights | None = None, **traits: Any):
+        self.check_settings(traits)
+        self.sliders: dict[str, FloatLogSlider] = {}
+        self.readouts: dict[str, Label] = {}
         groups = [_group(title, [self._row(term) for term in terms]) for title, terms in GROUPS.items()]
-        reset = Button(description="Reset", tooltip="Set all weights to those of the paper", icon="undo")
-        reset.on_click(lambda _: self.set_trait("weights", Weights()))
-        super().__init__([KeyGuard(), *groups, reset], **traits)
+        self.reset_button = Button(description="Reset", tooltip="Set all weights to the paper's", icon="undo")
+        self.reset_button.on_click(lambda _: self.set_trait("weights", Weights()))
+        super().__init__([KeyGuard(), *groups, self.reset_button], **traits)
         self.weights = Weights() if weights is None else weights
 
-    def _row(self, term):
-        slider = self._sliders[term.field] = FloatLogSlider(
+    def _row(self, term: Term) -> HBox:
+        slider = self.sliders[term.field] = FloatLogSlider(
             min=LOWEST,
             max=HIGHEST,
             step=STEP,
@@ -79,24 +90,24 @@ class WeightSliders(WithParts, VBox):
             layout=Layout(flex="1 1 auto", width="auto", min_width="0"),
         )
         slider.observe(partial(self._move, term.field), "value")
-        self._readouts[term.field] = Label(layout=Layout(flex="0 0 52px"))
-        return HBox([slider, self._readouts[term.field]])
+        self.readouts[term.field] = Label(layout=Layout(flex="0 0 52px"))
+        return HBox([slider, self.readouts[term.field]])
 
-    def _move(self, name, change):
-        if change.new != _on_slider(getattr(self.weights, name)):  # else it is the slider that follows the weight
+    def _move(self, name: str, change: Bunch) -> None:
+        if change.new != _on_scale(getattr(self.weights, name)):  # else the slider shows the weight already
             self.weights = replace(self.weights, **{name: change.new})
 
     @observe("weights")
-    def _show(self, change):
-        for name, slider in self._sliders.items():
+    def _show(self, change: Bunch) -> None:
+        for name, slider in self.sliders.items():
             weight = getattr(self.weights, name)
-            slider.value = _on_slider(weight)
-            self._readouts[name].value = f"{weight:.3g}" if weight < 1000 else f"{weight:,.0f}"
+            slider.value = _on_scale(weight)
+            self.readouts[name].value = f"{weight:.3g}" if weight < 1000 else f"{weight:,.0f}"
 
 
-def _on_slider(weight):
+def _on_scale(weight: float) -> float:
     return min(max(float(weight), 10.0**LOWEST), 10.0**HIGHEST)
 
 
-def _group(title, rows):
+def _group(title: str, rows: list[HBox]) -> VBox:
     return VBox([HTML(f"<b>{title}</b>"), *rows], layout=Layout(width="100%"))

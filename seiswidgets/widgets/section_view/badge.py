@@ -1,4 +1,4 @@
-"""A mark on a whole pane: a coloured frame with a label on its upper edge."""
+"""The badge of a pane: a coloured frame with a label on its upper edge."""
 
 from ipywidgets import HTML, Layout
 
@@ -12,17 +12,17 @@ WIDTHS = {"problem": 3, "warning": 2}  # css pixels of the frame
 
 
 class PaneBadge(HTML):
-    """Frame and label over a pane; the picture's own pixels, and the mouse, are left alone.
+    """Frame and label over a pane; neither covers the picture, nor takes mouse events.
 
     Parameters
     ----------
     layout : Layout
-        Which puts it on the plot area.
+        Puts it on the plot area.
 
     Attributes
     ----------
     severity : str
-        Of what is said, "" where nothing is.
+        Severity of the finding shown; "" if there is none.
     text : str
         The label.
     """
@@ -33,13 +33,13 @@ class PaneBadge(HTML):
         self.hide()
 
     def show(self, severity: str, text: str) -> None:
-        """Mark the pane."""
+        """Show the frame and the label."""
         self.severity, self.text = severity, text
         fill, _ = LOOKS[severity].colours
         self.value = FRAME.format(width=WIDTHS.get(severity, 1), fill=fill, label=label(severity, text))
         self.layout.display = ""
 
     def hide(self) -> None:
-        """Remove the mark."""
+        """Hide the frame and the label."""
         self.severity = self.text = self.value = ""
         self.layout.display = "none"

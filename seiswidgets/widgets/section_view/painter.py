@@ -1,4 +1,4 @@
-"""What is painted in a pane: the section in colours, quickly while it moves and finely at rest, and a map over it."""
+"""Painting of a pane: the section in colours, quickly while it moves and finely at rest, and a map over it."""
 
 from ipycanvas import MultiCanvas
 from ipywidgets import Layout
@@ -7,17 +7,18 @@ from seiswidgets.geology.section import Section
 from seiswidgets.interaction.colour import Colouring
 from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.viewport import Viewport
-from seiswidgets.widgets.section_view.canvas import held, resize
-from seiswidgets.widgets.section_view.texture import Texture, detail, preview, whole
+from seiswidgets.widgets.ipycanvas_compat import hold_canvases
+from seiswidgets.widgets.section_view.texture import Sample, Texture, detail, preview, resize, whole
 
 
 class Painter:
-    """The canvases of a pane; they are sent nothing before a page has come that shows them.
+    """The canvases of a pane. Nothing is sent to them before a page shows them.
 
-    Each change of what is seen goes out as one message, so that the browser never shows half of it.
+    Each change goes out as one message, so that the browser never shows half of it.
 
     Parameters
     ----------
+    section : Section
     layout : Layout
 
     Attributes
@@ -26,73 +27,75 @@ class Painter:
         The widget: the section, and the overlay above it.
     colouring : Colouring
     opacity : float
-        Of the overlay, 0 to 1.
+        Opacity of the overlay, 0 to 1.
     is_moving : bool
-        Whether the section is drawn coarsely, as another follows soon.
+        True if the section is drawn coarsely, since another follows soon.
     """
 
-    def __init__(self, layout: Layout):
+    def __init__(self, section: Section, layout: Layout):
         self.canvas = MultiCanvas(2, width=900, height=600, layout=layout)
-        self.colouring, self.opacity = None, 1.0
-        self._section, self._overlay = None, None
-        self._view, self._refined = None, None  # as last drawn, and as last painted finely
-        self.is_moving, self._is_seen = False, False
+        self.colouring, self.opacity = Colouring("greys", 1.0), 1.0
+        self.is_moving, self._has_page = False, False
+        self._section = section
+        self._overlay: Overlay | None = None
+        self._drawn_view: Viewport | None = None
+        self._refined_view: Viewport | None = None
         self._whole, self._detail, self._preview, self._map = self._textures = [Texture() for _ in range(4)]
 
-    def take(self, section: Section, is_moving: bool = False) -> None:
-        """Another section is to be drawn next, coarsely if it moves."""
+    def take_section(self, section: Section, is_moving: bool = False) -> None:
+        """Replace the section, to be drawn coarsely if it is moving."""
         self._section, self.is_moving = section, is_moving
-        self._forget()
+        self._forget_section()
 
-    def colour(self, colouring: Colouring) -> None:
-        """Other colours are to be drawn next."""
+    def take_colouring(self, colouring: Colouring) -> None:
+        """Replace the colours of the section."""
         self.colouring = colouring
-        self._forget()
+        self._forget_section()
 
-    def cover(self, overlay: Overlay | None) -> None:
-        """Another overlay is to be drawn next, or none."""
+    def take_overlay(self, overlay: Overlay | None) -> None:
+        """Replace the overlay, or remove it."""
         self._overlay = overlay
         self._map.forget()
 
     def resend(self, view: Viewport) -> None:
-        """Draw everything for a page that knows nothing yet."""
-        with held():
-            self._is_seen = True
+        """Send everything, for a page that has just appeared."""
+        with hold_canvases():
+            self._has_page = True
             for texture in self._textures:
                 texture.send()
             self.draw(view)
 
     def draw(self, view: Viewport) -> None:
-        """Draw what a view shows."""
-        if not self._is_seen:
+        """Draw the section and the overlay in a view."""
+        if not self._has_page:
             return
-        with held():
-            for canvas in (*self.canvas._canvases, self.canvas):
+        section, overlay = self.canvas[0], self.canvas[1]
+        with hold_canvases():
+            for canvas in (section, overlay, self.canvas):
                 resize(canvas, *view.backing)
             self._paint(view)
-            section, overlay = self.canvas[0], self.canvas[1]
             for canvas in (section, overlay):
                 canvas.clear_rect(0, 0, *view.backing)
             for texture in (self._whole, self._detail, self._preview):
                 texture.draw_on(section, view)
             overlay.global_alpha = self.opacity
             self._map.draw_on(overlay, view)
-        self._view = view
+        self._drawn_view = view
 
     def sharpen(self, view: Viewport) -> None:
-        """Draw what is shown anew from the amplitudes, where the section's picture is too coarse for it."""
-        if self._is_seen and not self.is_moving and view != self._refined:
-            with held():
+        """Draw a view afresh from the amplitudes if the picture of the whole section is too coarse for it."""
+        if self._has_page and not self.is_moving and view != self._refined_view:
+            with hold_canvases():
                 self._refine(view)
                 self.draw(view)
 
-    def _forget(self):
+    def _forget_section(self) -> None:
         for texture in (self._whole, self._detail, self._preview):
             texture.forget()
 
-    def _paint(self, view):
-        """Make those textures that are missing; what moves is made for one view only."""
-        if self.is_moving and not (self._preview.picture and view == self._view):
+    def _paint(self, view: Viewport) -> None:
+        """Paint the textures that are missing; a moving section is painted for one view only."""
+        if self.is_moving and not (self._preview.picture and view == self._drawn_view):
             self._fill(self._preview, preview(self._section, view))
         elif not self.is_moving and not self._whole.picture:
             self._fill(self._whole, whole(self._section, view))
@@ -100,13 +103,13 @@ class Painter:
         if self._overlay is not None and not self._map.picture:
             self._map.paint(self._overlay.levels, self._overlay.palette, self._overlay.window, self.is_moving)
 
-    def _refine(self, view):
-        self._refined = view
+    def _refine(self, view: Viewport) -> None:
+        self._refined_view = view
         if self._whole.size == self._section.shape[::-1] or not self._whole.is_coarse(view):
             self._detail.forget()
         else:
             self._fill(self._detail, detail(self._section, view))
 
-    def _fill(self, texture, sample):
+    def _fill(self, texture: Texture, sample: Sample) -> None:
         amplitude, window = sample
         texture.paint(self.colouring.levels(amplitude), self.colouring.palette, window, self.is_moving)

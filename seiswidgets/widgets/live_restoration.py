@@ -1,0 +1,181 @@
+"""Restoration of a workspace while it is edited, and display of the result."""
+
+from traitlets import Bunch
+
+from seiswidgets.geology.restoration import Restoration
+from seiswidgets.interaction.document import Document
+from seiswidgets.widgets.histogram import DeformationHistogram
+from seiswidgets.widgets.linked_panes import LinkedPanes
+from seiswidgets.widgets.messages import in_words
+from seiswidgets.widgets.picker import Picker
+from seiswidgets.widgets.restorer import REST, Restorer
+from seiswidgets.widgets.snapshot import Snapshot
+from seiswidgets.widgets.status_bar import StatusBar
+from seiswidgets.widgets.timeline import Timeline
+from seiswidgets.widgets.timeline_player import TimelinePlayer
+from seiswidgets.widgets.verdict import Verdict
+
+DRAW_FAULT = (
+    "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
+)
+DRAW_HORIZON = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
+OUTDATED = "The section has not been restored since the last change: press Restore."
+
+
+class LiveRestoration:
+    """Restores the workspace of a picker after each edit, and shows the result in panes, status bar and histogram.
+
+    While something is dragged, it shows a preview on a coarse mesh; once the workspace is settled, it restores on the
+    full mesh in the background. If the status bar is not set to live, only ``restore`` does.
+
+    Parameters
+    ----------
+    picker : Picker
+    panes : LinkedPanes
+    status : StatusBar
+    timeline : Timeline
+    histogram : DeformationHistogram
+    """
+
+    def __init__(
+        self,
+        picker: Picker,
+        panes: LinkedPanes,
+        status: StatusBar,
+        timeline: Timeline,
+        histogram: DeformationHistogram,
+    ):
+        self._workspace = workspace = picker.workspace
+        self._picker, self._panes, self._status = picker, panes, status
+        self._timeline, self._histogram = timeline, histogram
+        self._requested = False  # whether the user pressed Restore: only then is an error shown as an alert
+        self._restorer = Restorer(self._draw, status.tell, self._fail)
+        self._player = TimelinePlayer(panes, picker.redraw)
+        workspace.observe(self._take_document, "document")
+        workspace.observe(self._take_settled, "settled")
+        workspace.observe(self._take_restoration, "restoration")
+        status.observe(self._take_live, "live")
+        timeline.observe(self._take_time, "time")
+
+    def restore(self) -> None:
+        """Restore on the full mesh now, in the background."""
+        self._requested = True
+        self._restore_now()
+
+    def update(self) -> None:
+        """Restore if live, with a preview first if there is an earlier restoration; otherwise show that one is due."""
+        self._requested = False
+        if not self._is_possible():
+            return
+        if not self._status.live:
+            self._restorer.cancel()
+            self._picker.show_findings(())
+            self._show_outdated()
+            return
+        self._status.show_busy()
+        has_earlier = bool(self._workspace.restoration.stages)
+        if has_earlier:
+            self._restorer.preview(self._workspace.job)
+        self._restorer.restore(self._workspace.job, REST if has_earlier else 0.0)
+
+    def cancel(self) -> None:
+        """Cancel the restoration in progress; the earlier one stays."""
+        self._restorer.cancel()
+        self._show_outdated()
+
+    def stop(self) -> None:
+        """Cancel everything in progress, and show nothing more."""
+        self._restorer.cancel()
+        self._player.cancel()
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until nothing is in progress; False after the timeout in seconds."""
+        return self._restorer.wait(timeout) and self._player.wait(timeout)
+
+    def _take_document(self, change: Bunch) -> None:
+        old, new = change.old, change.new
+        if old.section is not new.section:
+            self._restorer.forget()
+        if _needs_restoration(old, new):
+            self.update()
+        self._picker.redraw()
+
+    def _take_settled(self, change: Bunch) -> None:
+        if change.new and self._status.live:
+            self._restore_now()
+
+    def _take_live(self, change: Bunch) -> None:
+        if self._status.comm is not None:  # else the app is closed
+            self.update()
+
+    def _take_time(self, change: Bunch) -> None:
+        self._player.show(self._workspace.restoration, change.new)
+
+    def _take_restoration(self, change: Bunch) -> None:
+        """Show the workspace's restoration, unless it is drawn already."""
+        restoration = change.new
+        if self._panes.shown.restoration is not restoration:
+            self._restorer.cancel()
+            self._draw(Snapshot.of(restoration), restoration)
+        self._panes.restoration = restoration
+        self._timeline.labels = [stage.kind for stage in restoration.stages]
+        self._timeline.time = len(restoration.stages)
+
+    def _restore_now(self) -> None:
+        if self._is_possible():
+            self._status.show_busy()
+            self._restorer.restore(self._workspace.job)
+
+    def _is_possible(self) -> bool:
+        """Return whether the picks suffice for a restoration; if not, show what to draw and the present-day section."""
+        interpretation = self._workspace.interpretation
+        lacks_horizon = bool(interpretation.faults) and not interpretation.horizons
+        if self._workspace.job.steps and not lacks_horizon:
+            return True
+        self._restorer.cancel()
+        restoration = Restoration(self._workspace.section)
+        self._draw(Snapshot.of(restoration), restoration)
+        self._status.hint(DRAW_HORIZON if lacks_horizon else DRAW_FAULT)
+        return False
+
+    def _draw(self, snapshot: Snapshot, restoration: Restoration | None) -> None:
+        """Draw a snapshot; a preview has no restoration on the full mesh."""
+        verdict = snapshot.verdict
+        self._player.cancel()
+        self._panes.show(snapshot)
+        self._picker.show_findings(verdict.findings if verdict else ())
+        self._picker.redraw()
+        self._show_verdict(verdict, is_preview=restoration is None)
+        self._set_outdated(False)
+        self._histogram.show(snapshot.ratio_before.ratio.ravel() if snapshot.restoration.stages else [])
+        if restoration is not None:
+            self._workspace.restoration = restoration
+
+    def _show_verdict(self, verdict: Verdict | None, is_preview: bool) -> None:
+        if verdict is not None:
+            self._status.judge(verdict)
+        elif is_preview:
+            self._status.show_busy()  # the full restoration follows
+        else:
+            self._status.hint("")
+
+    def _fail(self, error: Exception) -> None:
+        """Show an error: as an alert if the user pressed Restore, as a hint while picks are being drawn."""
+        text = in_words(error)
+        (self._status.alert if self._requested else self._status.hint)(text)
+        self._picker.complain(error, "problem" if self._requested else "note")
+        self._set_outdated(True)
+
+    def _show_outdated(self) -> None:
+        self._set_outdated(True)
+        self._status.hint(OUTDATED)
+
+    def _set_outdated(self, outdated: bool) -> None:
+        change = self._panes.restored.add_class if outdated else self._panes.restored.remove_class
+        change("seiswidgets-outdated")
+
+
+def _needs_restoration(old: Document, new: Document) -> bool:
+    """Return whether a document needs another restoration than an earlier one."""
+    same_picks = old.section is new.section and old.drawing.interpretation is new.drawing.interpretation
+    return not same_picks or old.plan != new.plan
