@@ -156,7 +156,7 @@ def drags(open_notebook, case):
 def cancelling(open_notebook):
     """A restoration on a fine mesh is given up as soon as it tells of an iteration."""
     opened, seconds = settled(open_notebook(APP.format(case="faulted_fold"))), []
-    opened.ask("[setattr(app, 'live', False), setattr(app.solving, 'spacing', app.solving._middle / 4)]")
+    opened.ask("[setattr(app, 'live', False), setattr(app.solving, 'spacing', app.solving.slider.value / 4)]")
     for _ in range(RUNS):
         opened.page.locator("button:has-text('Restore')").click()
         opened.page.get_by_text(re.compile("iteration [1-9]")).first.wait_for()

@@ -64,7 +64,8 @@ class PickNetwork:
             if not any(pair.fault == fault for pair in found):
                 raise PickError(
                     f"no horizon ends at fault {fault!r} on both sides, so that nothing tells how far it has slipped; "
-                    f"{self._nearest(fault)}"
+                    f"{self._nearest(fault)}",
+                    pick=fault,
                 )
         return found
 

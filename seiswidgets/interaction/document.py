@@ -105,11 +105,11 @@ class EditHistory:
         self._take(self._document, self._document)
 
     def edit(self, label: str, selection: PickSelection | None = None, **changes: Any) -> None:
-        """Change fields of the document and record the edit, unless nothing changes."""
+        """Change fields of the document and record the edit, unless nothing changes; "" derives the label."""
         document = replace(self._document, **changes)
         self._check(document)
         if document != self._committed:
-            self._past.append(Entry(label, self._committed, selection))
+            self._past.append(Entry(label or edit_label(self._committed, document), self._committed, selection))
             self._future.clear()
         self._take(document, document)
 
@@ -144,3 +144,15 @@ class EditHistory:
         self._committed = self._document if committed == self._document else committed
         if is_new:
             self._changed()
+
+
+def edit_label(before: Document, after: Document) -> str:
+    """Name the edit of picks or held point between two documents, as the tooltip of Undo shows it."""
+    if before.drawing == after.drawing:
+        return "held point"
+    old, new = ({(pick.kind, pick.name): pick for pick in one.drawing.picks} for one in (before, after))
+    changed = {key for key in old.keys() & new.keys() if old[key] != new[key]}
+    for verb, keys in (("draw", new.keys() - old.keys()), ("delete", old.keys() - new.keys()), ("change", changed)):
+        if keys:
+            return f"{verb} {', '.join(name for _, name in sorted(keys))}"
+    return "draft line"

@@ -45,8 +45,6 @@ from seiswidgets.interaction.mouse import CTRL, double_click, move, press, relea
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
 
-PICKS_EDIT = "edit of the picks"
-
 
 class PickEditor:
     """The state machine: ``handle`` gestures, read ``state``.
@@ -217,7 +215,7 @@ class PickEditor:
         self.settle()
         self._become(self.state.draw(drawing, selection or self.state.selection), label)
 
-    def _become(self, state: EditorState | None, label: str = PICKS_EDIT) -> bool:
+    def _become(self, state: EditorState | None, label: str = "") -> bool:
         """Change to a state, and record an edit unless a drag is in progress; False if there is no new state."""
         if state is None:
             return False

@@ -93,7 +93,7 @@ class RestorationApp(WithParts, VBox):
     interpretation = Instance(Interpretation, ())
     fixed = traitlets.Any(None, allow_none=True)
     weights = Instance(Weights, ())
-    steps: tuple = Tuple()
+    steps = Tuple()
     live = Bool(True)
     restoration = Instance(Restoration)
 
@@ -184,7 +184,8 @@ class RestorationApp(WithParts, VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all background work is done, as in a script; False after the timeout in seconds."""
-        return all(part.wait(timeout) for part in (*self._opened_files(), self.session_bar, self.restoring))
+        is_done = all(panel.wait(timeout) for panel in self._opened_files())
+        return is_done and self.session_bar.wait(timeout) and self.restoring.wait(timeout)
 
     def close(self) -> None:
         """Stop background work, save unsaved edits, remove the app from the page, and free its memory.

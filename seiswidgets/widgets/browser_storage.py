@@ -1,21 +1,22 @@
-"""Texts that the user's browser keeps: they outlive the kernel, and nobody else who uses the server sees them."""
+"""Texts kept in the user's browser: they outlive the kernel, and other users of the server do not see them."""
 
 from pathlib import Path
+from typing import Any
 
 import anywidget
-from ipywidgets import Layout
+from ipywidgets import Layout, Widget
 from traitlets import Dict, Instance, Unicode
 
 
 class BrowserStorage(anywidget.AnyWidget):
-    """Shows nothing; keeps texts in the browser, for the tab that shows it and for tabs that are opened later.
+    """A hidden widget that keeps texts in the browser, for the tab that shows it and for tabs opened later.
 
     Attributes
     ----------
     kept : dict of str to str
-        Texts by name. A text that changes is written at once, one that is taken out is deleted in the browser.
+        Texts by name. A changed text is written at once; a removed one is deleted in the browser.
     found : dict of str to str or None
-        What the first page that came had kept before; None until then.
+        Texts that the first page to connect had kept before; None until then.
     trouble : str
         Why the browser cannot keep a text, in its own words; "" if it can.
     """
@@ -26,12 +27,12 @@ class BrowserStorage(anywidget.AnyWidget):
     found = Instance(dict, allow_none=True)
     trouble = Unicode()
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__(layout=Layout(display="none"))
         self.on_msg(self._take)
 
-    def _take(self, _widget, content, buffers):
+    def _take(self, _widget: Widget, content: dict[str, Any], buffers: list[memoryview]) -> None:
         if content["kind"] == "trouble":
             self.trouble = str(content["text"])
-        elif self.found is None:  # a page that comes later knows no more than this kernel does
+        elif self.found is None:  # a page that connects later has nothing that this kernel does not have
             self.found = {name: text for name, text in content["texts"].items() if isinstance(text, str)}

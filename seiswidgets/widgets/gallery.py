@@ -6,7 +6,7 @@ from dataclasses import replace
 from html import escape
 from typing import Any
 
-from ipywidgets import HTML, Button, Checkbox, Dropdown, HBox, Layout, VBox
+from ipywidgets import HTML, Button, Checkbox, Dropdown, HBox, Layout, VBox, Widget
 from traitlets import Bool, Bunch, Enum, Instance
 
 from seiswidgets.errors import DataError, SeiswidgetsError
@@ -36,8 +36,8 @@ STARTED_OVER = "You have started over on this section."
 RETURN = "Bring it back"
 SET_ASIDE = "Your drawing on {} is set aside."
 UNKEPT = (
-    "Your browser cannot keep your drawing ({}). It will be lost when the page is reloaded: save it in a session in the "
-    "tab File, or free some space."
+    "Your browser cannot keep your drawing ({}). It will be lost when the page is reloaded: save it in a session in "
+    "the tab File, or free some space."
 )
 CHOSEN = "choice"  # name under which the browser keeps the chosen section
 
@@ -78,6 +78,7 @@ class Gallery(WithParts, VBox):
     choice = Enum(tuple(EXHIBITS), next(iter(EXHIBITS)))
     with_picks = Bool(False)
     app = Instance(RestorationApp, allow_none=True)
+    children: tuple[Widget, ...]
 
     def __init__(self, **settings: Any):
         self.check_settings(settings)

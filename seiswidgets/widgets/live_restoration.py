@@ -176,6 +176,6 @@ class LiveRestoration:
 
 
 def _needs_restoration(old: Document, new: Document) -> bool:
-    """Compare two documents: does the second ask for another restoration?"""
+    """Return whether a document needs another restoration than an earlier one."""
     same_picks = old.section is new.section and old.drawing.interpretation is new.drawing.interpretation
     return not same_picks or old.plan != new.plan

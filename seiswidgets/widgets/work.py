@@ -62,7 +62,7 @@ class Work:
         PickError
             If a name contains an unpaired surrogate.
         """
-        session = session_of(Document(section, self.drawing, self.plan, source), sha256, KEPT)
+        session = session_of(Document(section, self.drawing, self.plan), source, sha256)
         line = self.drawing.draft
         return json_text(
             {

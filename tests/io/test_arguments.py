@@ -80,7 +80,7 @@ def test_the_name_of_a_pick_may_stand_alone_in_a_step():
 
 @pytest.mark.parametrize("fixed", [5, (1, 2, 3), ("left", "top")])
 def test_a_point_held_must_be_one(fixed):
-    with pytest.raises(sw.PickError, match=r"fixed must be a point \(x, z\), but is "):
+    with pytest.raises(sw.PickError, match=r"fixed must be a point \(x, z\) of two finite numbers, but is "):
         sw.Session.of(SECTION, SOURCE, NONE_DRAWN, fixed)
 
 

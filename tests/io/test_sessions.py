@@ -64,10 +64,10 @@ def assert_same(one, other):
     np.testing.assert_allclose(other.section.amplitude, one.section.amplitude, rtol=0, atol=1e-9)
 
 
-def test_a_session_comes_back_as_it_was(session, saved):
+def test_a_session_comes_back_as_it_was(case, session, saved):
     again = sw.open_session(saved[0])
     assert again == session
-    assert again.plan == PLAN
+    assert again.plan == replace(PLAN, fixed=case.fixed)
     assert again.faults[0].colour == "#e69f00"
     assert [(pick.colour, pick.visible) for pick in again.horizons] == [(None, True), ("teal", False)]
     assert again.written_by == f"seiswidgets {sw.__version__}"
@@ -313,8 +313,7 @@ def test_sessions_of_version_0_open(tmp_path):
         None,
         (SavedPick("F1", (((100.0, 600.0), (200.0, 700.0)),)),),
         (SavedPick("H1", ((((0.0, 600.0), (90.0, 610.0))),)),),
-        (50.0, 650.0),
-        sw.Plan((sw.Step("flatten"),), sw.Weights(edge=2.0)),
+        sw.Plan((sw.Step("flatten"),), sw.Weights(edge=2.0), fixed=(50.0, 650.0)),
     )
     session.save(tmp_path / "new.json")
     assert sw.open_session(tmp_path / "new.json") == session
@@ -342,7 +341,7 @@ def test_the_examples_in_the_docs_open(tmp_path, case):
     (tmp_path / "session.json").write_text(document.replace("64 hexadecimal digits", 64 * "0"))
     session = sw.open_session(tmp_path / "session.json")
     assert session.source == sw.SectionSource("file", str(tmp_path / "data" / "line.npz"))
-    assert session.plan == sw.Plan((sw.Step("unfault"),))
+    assert session.plan == sw.Plan((sw.Step("unfault"),), fixed=(2000.0, 1600.0))
     session.save(tmp_path / "again.json")
     again, shown = (json.loads((tmp_path / name).read_text()) for name in ("again.json", "session.json"))
     assert again == {**shown, "written_by": f"seiswidgets {sw.__version__}"}
@@ -425,6 +424,6 @@ def test_saving_leaves_the_old_file_when_it_fails(session, saved, tmp_path, monk
     before = saved[0].read_bytes()
     monkeypatch.setattr(os, "fsync", lambda handle: (_ for _ in ()).throw(OSError(28, "No space left on device")))
     with pytest.raises(DataError, match=r"session.json cannot be written: No space left on device"):
-        replace(session, fixed=None).save(saved[0])
+        replace(session, plan=sw.Plan()).save(saved[0])
     assert saved[0].read_bytes() == before
     assert os.listdir(tmp_path) == ["session.json"]

@@ -35,5 +35,5 @@ def send(field, name, content, size=None, piece=2**20):
 
 
 def message(field, kind, sender, *buffers, **content):
-    """What the button for uploads tells."""
+    """Send a message of the upload button."""
     field.upload._handle_custom_msg({"kind": kind, "id": sender, **content}, list(buffers))

@@ -45,7 +45,7 @@ def app(new_app, case):
 
 
 def drawn_frames(app, monkeypatch):
-    """What is drawn from now on."""
+    """Snapshots drawn from now on."""
     frames, show = [], app.panes.show
 
     def noting(frame):
@@ -284,3 +284,18 @@ def test_the_app_of_a_time_section_and_settings_from_the_start(case):
     app.close()
     with pytest.raises(PickError, match="no fault called"):
         sw.Plan((sw.Step("unfault", ("F9",)),)).restore(section, case.interpretation)
+
+
+@pytest.mark.parametrize(
+    ("make", "misspelt", "hint"),
+    [
+        (lambda **settings: RestorationApp(sw.synthetic.tilt().section, **settings), "heigth", "height"),
+        (sw.Gallery, "whith_picks", "with_picks"),
+        (sw.StepList, "interpretations", "interpretation"),
+        (sw.WeightSliders, "weigths", "weights"),
+    ],
+    ids=["RestorationApp", "Gallery", "StepList", "WeightSliders"],
+)
+def test_a_misspelt_keyword_is_refused_with_a_suggestion(make, misspelt, hint):
+    with pytest.raises(sw.SettingError, match=f"no keyword {misspelt}=; did you mean {hint}="):
+        make(**{misspelt: None})

@@ -32,7 +32,7 @@ def picks():
 
 
 def shown(pane):
-    """What a page does that shows a pane: the pictures are painted on canvases of their own."""
+    """Do what a page does that shows a pane: paint the pictures on canvases of their own."""
     pane.layer._handle_custom_msg(FRESH_VIEW, [])
 
 

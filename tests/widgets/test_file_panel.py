@@ -72,11 +72,11 @@ def answer(notice, name):
 def test_a_line_is_previewed_and_opened(app, tmp_path):
     path = line(tmp_path / "line.sgy", text=HOSTILE.ljust(3200))
     opener = look(app, path)
-    assert "30 traces of 40 samples; traces 25 m apart; samples 4 ms" in opener._preview.value
-    assert "&lt;img src=x" in opener._preview.value
-    assert "<img" not in opener._preview.value
+    assert "30 traces of 40 samples; traces 25 m apart; samples 4 ms" in opener.summary.value
+    assert "&lt;img src=x" in opener.summary.value
+    assert "<img" not in opener.summary.value
     assert "two-way" not in opener.notice.text
-    assert "does not say: vertical axis, velocity. Correct" in opener.fields._note.value
+    assert "does not state it: vertical axis, velocity. Correct" in opener.fields.note.value
     shown = {name: opener.fields.fields[name] for name in ("dx", "dz", "z0")}
     opener.fields.fields["z_unit"].value = "s"
     assert [field.description for field in shown.values()] == [
@@ -85,9 +85,9 @@ def test_a_line_is_previewed_and_opened(app, tmp_path):
         "first sample at (s)",
     ]
     assert [field.placeholder for field in shown.values()] == [
-        "25, as the file says",
-        "0.004, as the file says",
-        "0, as the file says",
+        "25, as in the file",
+        "0.004, as in the file",
+        "0, as in the file",
     ]
     opener.fields.fields["z_unit"].value = "ms"
     load(app, path, velocity="2500")
@@ -126,14 +126,14 @@ def test_header_bytes_that_are_chosen_are_previewed_and_opened(app, tmp_path):
     headers = volume_headers([10, 11, 12], [1, 2, 3, 4, 5], **at)
     path.write_bytes(segy_bytes(numbered(headers, **at), headers))
     opener = look(app, path)
-    assert opener.header_bytes._box.layout.display == "none"
-    assert "inlines" not in opener._preview.value
+    assert opener.header_bytes.box.layout.display == "none"
+    assert "inlines" not in opener.summary.value
     opener.fields.fields["z_unit"].value = "m"
-    opener.header_bytes.asked.value = True
+    opener.header_bytes.unfolded.value = True
     for name, byte in (("inline", "9"), ("crossline", "21")):
         opener.header_bytes.fields[name].value = byte
         assert opener.wait(LONG)
-    assert "3 inlines, 10 to 12; 5 crosslines, 1 to 5" in opener._preview.value
+    assert "3 inlines, 10 to 12; 5 crosslines, 1 to 5" in opener.summary.value
     opener.load()
     assert opener.wait(LONG)
     assert app.section.z_unit == "m"
@@ -145,39 +145,39 @@ def test_header_bytes_that_are_chosen_are_previewed_and_opened(app, tmp_path):
 @pytest.mark.parametrize(("byte", "said"), [("182", "where no number starts"), ("x", "must be a whole number")])
 def test_header_bytes_that_are_none_are_said(app, tmp_path, byte, said):
     opener = look(app, line(tmp_path / "line.sgy"))
-    opener.header_bytes.asked.value = True
+    opener.header_bytes.unfolded.value = True
     opener.header_bytes.fields["x"].value = byte
     assert opener.wait(LONG)
     assert said in opener.notice.text
-    assert opener._open.disabled
-    opener.header_bytes.asked.value = False
+    assert opener.open_button.disabled
+    opener.header_bytes.unfolded.value = False
     assert opener.wait(LONG)
     assert opener.notice.text == ""
-    assert not opener._open.disabled
+    assert not opener.open_button.disabled
 
 
 def test_positions_that_are_of_no_use_are_said_before_opening(app, tmp_path):
     traces = np.zeros((4, 5), np.float32)
     (tmp_path / "uneven.sgy").write_bytes(segy_bytes(traces, [{181: x} for x in (0, 25, 50, 110)]))
     opener = look(app, tmp_path / "uneven.sgy")
-    assert "unevenly spaced traces: most are 25 apart" in opener.fields._note.value
-    assert "give the distance between traces: “traces apart”" in opener.fields._note.value
+    assert "unevenly spaced traces: most are 25 apart" in opener.fields.note.value
+    assert "give the distance between traces: “traces apart”" in opener.fields.note.value
     load(app, tmp_path / "uneven.sgy", dx="0")
     assert "“traces apart” must be above 0, but is 0" in opener.notice.text
     (tmp_path / "old.sgy").write_bytes(segy_bytes(traces, [{73: x} for x in (0, 25, 50, 75)]))
-    assert "give “other header bytes” {" in unescape(look(app, tmp_path / "old.sgy").fields._note.value)
+    assert "give “other header bytes” {" in unescape(look(app, tmp_path / "old.sgy").fields.note.value)
 
 
 def test_doubtful_headers_are_said_before_opening(app, tmp_path):
     traces, path = np.zeros((30, 5), np.float32), tmp_path / "decimetres.sgy"
     path.write_bytes(segy_bytes(traces, [{181: 4_340_000 + 125 * n, 185: 64_780_000} for n in range(30)]))
-    said = unescape(look(app, path).fields._note.value)
+    said = unescape(look(app, path).fields.note.value)
     assert "in decimetres, the traces are 12.5 apart: “traces apart” 12.5;" in said
     bits = [int(np.array(434_000 + 25 * n, "f4").view("i4")) for n in range(30)]
     (tmp_path / "floats.sgy").write_bytes(segy_bytes(traces, [{181: x, 185: 0} for x in bits]))
     opener = look(app, tmp_path / "floats.sgy")
-    assert "are read as IEEE floats" in opener.fields._note.value
-    assert opener.fields.fields["dx"].placeholder == "25, as the file says"
+    assert "are read as IEEE floats" in opener.fields.note.value
+    assert opener.fields.fields["dx"].placeholder == "25, as in the file"
 
 
 def test_a_matrix_takes_the_places_of_its_corners(app, tmp_path):
@@ -210,7 +210,7 @@ def test_of_an_archive_only_what_it_lacks_is_asked_for(app, tmp_path):
     np.savez(tmp_path / "units.npz", amplitude=amplitude, z_unit="m")
     opener = load(app, tmp_path / "units.npz", x_max="40", z_max="50")
     assert list(opener.fields.fields) == ["x_min", "x_max", "z_min", "z_max"]
-    assert "does not say: left edge, right edge, top, bottom." in opener.fields._note.value
+    assert "does not state it: left edge, right edge, top, bottom." in opener.fields.note.value
     assert app.section.extent == (0.0, 40.0, 0.0, 50.0)
 
 
@@ -220,8 +220,8 @@ def test_what_cannot_be_opened_is_said_and_changes_nothing(app, case, tmp_path, 
     path.write_bytes(content)
     opener = look(app, path)
     assert str(path) in opener.notice.text
-    assert "<img" not in opener.notice._line.value
-    assert opener._open.disabled
+    assert "<img" not in opener.notice.line.value
+    assert opener.open_button.disabled
     assert app.section is case.section
     opener.file.text.value = ""
     assert opener.notice.text == ""
@@ -240,15 +240,15 @@ def test_opening_can_be_cancelled(app, case, tmp_path, monkeypatch):
     opener.load()
     assert begun.wait(LONG)
     assert opener.job.layout.display == ""
-    assert opener._open.disabled
-    opener.job._cancel.click()
+    assert opener.open_button.disabled
+    opener.job.cancel_button.click()
     assert "Stopping" in opener.notice.text
     go_on.set()
     assert opener.wait(LONG)
     assert app.section is case.section
     assert "cancelled" in opener.notice.text
     assert opener.job.layout.display == "none"
-    assert not opener._open.disabled
+    assert not opener.open_button.disabled
 
 
 def test_another_path_takes_the_place_of_what_is_being_opened(app, case, tmp_path, monkeypatch):
@@ -267,7 +267,7 @@ def test_another_path_takes_the_place_of_what_is_being_opened(app, case, tmp_pat
     go_on.set()
     assert opener.wait(LONG)
     assert app.section is case.section
-    assert "20 traces" in opener._preview.value
+    assert "20 traces" in opener.summary.value
     assert opener.notice.text == ""
 
 
@@ -289,7 +289,7 @@ def test_picks_are_kept_or_dropped_as_the_user_says(restored, case, tmp_path):
     answer(opener.notice, "Keep the picks")
     assert app.section is not case.section
     assert app.picker.drawing == drawn
-    assert app.workspace.history.next_undo.label == "open faulted fold"
+    assert app.workspace.history.next_undo.label == "open same.npz"
     load(app, line(tmp_path / "line.sgy"))
     assert set(opener.notice.answers) == {"Drop the picks", "Do not open"}
     answer(opener.notice, "Drop the picks")
@@ -331,7 +331,7 @@ def test_an_upload_is_opened_under_a_harmless_name(app, tmp_path):
     path = Path(opener.file.path)
     assert path.name == "_b__up.sgy"
     assert path.read_bytes() == content
-    assert "Uploaded: _b__up.sgy" in opener.file._sent.value
+    assert "Uploaded: _b__up.sgy" in opener.file.status.value
     assert opener.wait(LONG)
     opener.load()
     assert opener.wait(LONG)
@@ -371,7 +371,7 @@ def test_an_upload_comes_piece_by_piece_whatever_gets_lost():
     assert first.read_bytes() == b"123123"
     field.text.value = "typed.sgy"
     assert (field.path, field.is_uploaded) == ("typed.sgy", False)
-    assert field._sent.layout.display == "none"
+    assert field.status.layout.display == "none"
     field.end()
     assert not first.parent.exists()
 
@@ -391,7 +391,7 @@ def test_an_upload_that_is_given_up_leaves_what_was_there(monkeypatch):
     assert list(path.parent.iterdir()) == [path]
     monkeypatch.setattr("seiswidgets.widgets.files.upload.MOST", 2)
     assert send(field, "long.sgy", b"abc") == [None]
-    assert "it has 3 bytes; there may be 2" in field.error
+    assert "it has 3 bytes, more than 2" in field.error
     field.end()
 
 
@@ -413,7 +413,7 @@ def test_an_upload_on_a_full_disk_is_said(monkeypatch):
 def take(picks, path):
     """Import picks, and give back what is said."""
     picks.file.text.value = str(path)
-    picks._read.click()
+    picks.import_button.click()
     assert picks.wait(LONG)
     return picks.notice.text
 
@@ -428,7 +428,7 @@ def test_picks_go_out_and_come_in(restored, case, tmp_path, suffix):
     picks.write()
     assert "exists already" in picks.notice.text
     answer(picks.notice, "Leave it")
-    assert take(picks, picks.out.value) == "Read 1 fault and 3 horizons; Undo brings back what was there."
+    assert take(picks, picks.out.value) == "Read 1 fault and 3 horizons; Undo brings the earlier picks back."
     (fault,) = restored.interpretation.faults
     np.testing.assert_array_equal(fault.points, case.interpretation.faults[0].points)
     restored.picker.editor.undo()
@@ -437,7 +437,7 @@ def test_picks_go_out_and_come_in(restored, case, tmp_path, suffix):
     picks.write()
     answer(picks.notice, "Replace it")
     picks.keep.value = False
-    assert take(picks, picks.out.value) == "Read 0 faults and 0 horizons; Undo brings back what was there."
+    assert take(picks, picks.out.value) == "Read 0 faults and 0 horizons; Undo brings the earlier picks back."
 
 
 def test_picks_that_are_drawn_stay_beside_those_of_a_file(app, tmp_path):
@@ -460,11 +460,11 @@ def test_picks_that_are_drawn_stay_beside_those_of_a_file(app, tmp_path):
 def test_what_an_export_does_not_say_is_asked_for(app, tmp_path):
     (tmp_path / "export.txt").write_text("-> \n100 0 200\n300 0 260\n-> \n500 0 290\n")
     picks = app.files.picks
-    assert picks._of_exports.layout.display == "none"
+    assert picks.map_fields.layout.display == "none"
     assert "export.txt: its suffix does not tell its format; give “format”" in take(picks, tmp_path / "export.txt")
     picks.format.value = "cps3-horizons"
-    assert picks._of_exports.layout.display == ""
-    assert picks.x_unit.options[0][0] == "choose: the file does not say"
+    assert picks.map_fields.layout.display == ""
+    assert picks.x_unit.options[0][0] == "choose: not in the file"
     assert "choose what “x comes from”" in take(picks, tmp_path / "export.txt")
     picks.along.value = "x"
     assert "does not state its x_unit; give “unit of x”" in take(picks, tmp_path / "export.txt")
@@ -519,7 +519,7 @@ def test_an_import_can_be_cancelled(app, tmp_path, monkeypatch):
     picks.file.text.value = "picks.csv"
     picks.read()
     assert begun.wait(LONG)
-    picks.job._cancel.click()
+    picks.job.cancel_button.click()
     go_on.set()
     assert picks.wait(LONG)
     assert "The import was cancelled" in picks.notice.text
@@ -529,7 +529,7 @@ def test_an_import_can_be_cancelled(app, tmp_path, monkeypatch):
 def test_trouble_with_picks_is_said_beside(app, tmp_path):
     picks = app.files.picks
     assert "there is no file" in take(picks, tmp_path / f"{HOSTILE.replace('/', '')}.csv")
-    assert "<img" not in picks.notice._line.value
+    assert "<img" not in picks.notice.line.value
 
 
 def test_all_results_are_written_and_open_again(restored, tmp_path):
@@ -556,7 +556,7 @@ def test_all_results_are_written_and_open_again(restored, tmp_path):
     before = {path: path.stat().st_mtime_ns for path in results.written}
     choose_results(results, "report.json", "report.html")
     results.export()
-    assert "There are already: faulted fold-report.json, faulted fold-report.html." in results.notice.text
+    assert "These files exist already: faulted fold-report.json, faulted fold-report.html." in results.notice.text
     answer(results.notice, "Leave them")
     assert {path: path.stat().st_mtime_ns for path in before} == before
     results.export()
@@ -593,15 +593,15 @@ def test_an_export_runs_beside_and_is_cancelled_between_files(restored, tmp_path
     results = export_reports(restored, tmp_path)
     assert begun.wait(LONG)
     assert results.notice.text == "Writing faulted fold-report.json ..."
-    assert results._export.disabled
+    assert results.export_button.disabled
     restored.interpretation = sw.Interpretation()  # goes on, and does not change what is written
-    results.job._cancel.click()
+    results.job.cancel_button.click()
     go_on.set()
     assert results.wait(LONG)
     assert results.notice.text == f"The export was cancelled. Wrote into {tmp_path}: faulted fold-report.json."
     assert [path.name for path in tmp_path.iterdir()] == ["faulted fold-report.json"]
     assert len(json.loads(results.written[0].read_text())["stages"]) == 2
-    assert not results._export.disabled
+    assert not results.export_button.disabled
 
 
 def test_one_file_that_cannot_be_written_keeps_no_other_from_it(restored, tmp_path, monkeypatch):
@@ -637,14 +637,14 @@ def test_segy_results_carry_the_headers_of_the_line_they_came_from(app, tmp_path
 def test_results_say_what_they_need(restored, tmp_path):
     results = restored.files.results
     for folder, stem, match in (
-        ("", "", "give the folder"),
-        (str(tmp_path / "none" / "out"), "", "cannot be made"),
+        ("", "", "give the folder for the files"),
+        (str(tmp_path / "none" / "out"), "", "cannot be created"),
         ("~nobody-of-that-name/out", "", "home"),
         (str(tmp_path), "../up", "a name without folders"),
         (str(tmp_path), "..", "a name without folders"),
     ):
         results.folder.value, results.stem.value = folder, stem
-        results._export.click()
+        results.export_button.click()
         assert match in results.notice.text
     choose_results(results)
     with pytest.raises(SettingError, match="choose what to export"):

@@ -24,9 +24,14 @@ app
 EXPORTED = """
 app.interpretation, app.fixed, app.live = case.interpretation, case.fixed, True
 app.files.results.folder.value = "{0}-results"
-job = app.files.results.job
-tell = job._tell
-job._tell = lambda stop, wanted, share: (share > 0.5 and stop.wait(60), tell(stop, wanted, share))[-1]
+from threading import Event
+job, pause = app.files.results.job, Event()
+report = job.report
+def wait_for_cancel(own, fraction):
+    while fraction > 0.5 and own.wanted:
+        pause.wait(0.05)
+    return report(own, fraction)
+job.report = wait_for_cancel
 """
 NAMES = "[pick.name for pick in app.picker.drawing.picks]"
 PICKS = "[[pick.name, pick.colour, pick.pieces] for pick in app.picker.drawing.picks]"

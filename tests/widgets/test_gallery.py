@@ -52,9 +52,9 @@ def test_real_sections_come_with_their_credit_and_without_picks(gallery, name):
     gallery.with_picks = True
     gallery.choice = name
     assert gallery.app.section.name == section.name
-    assert section.credit in gallery._text.value
+    assert section.credit in gallery.caption.value
     assert gallery.app.interpretation.faults == ()
-    assert gallery._picked.disabled
+    assert gallery.picks_box.disabled
 
 
 def test_a_missing_file_is_said_in_words(gallery, monkeypatch):
@@ -65,7 +65,7 @@ def test_a_missing_file_is_said_in_words(gallery, monkeypatch):
     gallery.choice = "teapot"
     assert gallery.app is None
     assert apps(gallery) == []
-    assert "Teapot Dome is not here. put &lt;b&gt;it&lt;/b&gt;" in gallery._text.value
+    assert "Teapot Dome is not available. put &lt;b&gt;it&lt;/b&gt;" in gallery.caption.value
     gallery.choice = "faulted_fold"
     assert gallery.app is not None
 

@@ -1,4 +1,4 @@
-"""What is done in the gallery is never lost: not by another choice, and not with the kernel."""
+"""Work in the gallery is never lost: neither by another choice, nor with the kernel."""
 
 import json
 
@@ -30,12 +30,12 @@ def opened():
 
 
 def receive(gallery, **content):
-    gallery._storage._handle_custom_msg(content, [])
+    gallery.storage._handle_custom_msg(content, [])
 
 
 def kept(gallery):
-    """What the browser has when the page goes."""
-    return json.loads(json.dumps(gallery._storage.kept))
+    """Texts in the browser when the page is closed."""
+    return json.loads(json.dumps(gallery.storage.kept))
 
 
 def draw(gallery, points=FAULT):
@@ -141,13 +141,13 @@ def test_a_page_that_comes_later_changes_nothing(opened):
 
 def test_starting_over_clears_and_can_be_taken_back(opened):
     gallery = opened({})
-    assert gallery._anew.disabled
+    assert gallery.start_over_button.disabled
     done = draw(gallery)
-    assert not gallery._anew.disabled
-    gallery._anew.click()
+    assert not gallery.start_over_button.disabled
+    gallery.start_over_button.click()
     assert Work.of(gallery.app) == Work.of(opened().app)
     assert "faulted_fold" not in kept(gallery)
-    assert gallery._anew.disabled
+    assert gallery.start_over_button.disabled
     gallery.notice.answers[RETURN].click()
     assert Work.of(gallery.app) == done
     assert "faulted_fold" in kept(gallery)
@@ -243,22 +243,22 @@ def test_a_setting_that_is_none_any_more_leaves_the_others(opened):
 def test_a_browser_that_keeps_nothing_is_said_as_long_as_that_lasts(opened):
     gallery = opened({})
     receive(gallery, kind="trouble", text="the <quota> is exceeded")
-    assert "cannot keep your drawing (the &lt;quota&gt; is exceeded)" in gallery._warning.value
-    assert gallery._warning.layout.display == ""
+    assert "cannot keep your drawing (the &lt;quota&gt; is exceeded)" in gallery.warning.value
+    assert gallery.warning.layout.display == ""
     receive(gallery, kind="trouble", text="")
-    assert gallery._warning.layout.display == "none"
+    assert gallery.warning.layout.display == "none"
 
 
 def test_a_name_that_no_text_can_hold_is_said_and_stays_in_the_kernel(opened):
     gallery = opened({})
     gallery.app.interpretation = sw.Interpretation([sw.Fault(FAULT, "half \ud800")])
-    assert "unpaired surrogate" in gallery._warning.value
+    assert "unpaired surrogate" in gallery.warning.value
     gallery.choice = "graben"
     gallery.choice = "faulted_fold"
     assert gallery.app.picker.drawing.names("fault") == ("half \ud800",)
     gallery.app.picker.editor.rename("fault", "half \ud800", "whole")
     gallery.app.picker.refresh()
-    assert gallery._warning.layout.display == "none"
+    assert gallery.warning.layout.display == "none"
 
 
 def test_a_section_of_ones_own_neither_takes_the_place_of_a_choice_nor_is_lost(opened):
@@ -299,7 +299,7 @@ def test_a_session_that_cannot_be_saved_does_not_keep_another_section_from_being
     monkeypatch.setattr(sw.Session, "save", fail)
     done = draw(gallery)
     gallery.choice = "graben"
-    assert "the disk is full" in gallery._warning.value
+    assert "the disk is full" in gallery.warning.value
     assert gallery.app.section.name == "graben"
     gallery.choice = "faulted_fold"
     assert Work.of(gallery.app) == done

@@ -6,8 +6,8 @@ from ipywidgets import HTML
 
 import seiswidgets as sw
 from seiswidgets.interaction.drawing import Drawing
-from seiswidgets.widgets.panels.controls import SolverControls
 from seiswidgets.widgets.app import LazyTabs
+from seiswidgets.widgets.panels.controls import SolverControls
 from seiswidgets.widgets.workspace import Workspace
 
 

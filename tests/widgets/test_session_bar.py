@@ -7,6 +7,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io import files
 from seiswidgets.io.session.autosave import find_versions, numbered_files
 from seiswidgets.widgets.app import RestorationApp
@@ -78,7 +79,7 @@ def draw_fault(app, points=FAULT):
 
 
 def names(path):
-    """Of the picks in the newest version."""
+    """Names of the picks in the newest version."""
     versions = find_versions(path)
     return [pick.name for pick in (*versions[0].session.faults, *versions[0].session.horizons)] if versions else []
 
@@ -201,7 +202,7 @@ def test_who_starts_anew_keeps_the_earlier_work_aside(new_app, path):
     draw_fault(again, OTHER)
     for number in range(12):
         again.fixed = (100.0 + number, 100.0)
-        wait_for(lambda: again.session_bar._autosave.pending is None)
+        wait_for(lambda: again.session_bar.is_saved)
     assert len(numbered_files(path)) == 10
     assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].name == "F1"
 
@@ -213,7 +214,7 @@ def test_a_full_disk_is_said_and_the_picks_are_saved_later(new_app, path, full_d
     draw_fault(app)
     wait_for(lambda: app.session_bar.news.text)
     assert "No space left on device" in app.session_bar.news.text
-    assert "stays in memory" in app.session_bar.news.text
+    assert "stay in memory" in app.session_bar.news.text
     assert app.status.text != app.session_bar.news.text
     assert [fault.name for fault in app.interpretation.faults] == ["F1"]
     full_disk.clear()
@@ -284,7 +285,7 @@ def test_the_picks_alone_are_taken_where_the_section_is_gone(new_app, path, sect
     assert "do not lie on the section" in small.session_bar.notice.text
     assert set(small.session_bar.notice.answers) == {"Open", "Picks only", "Start anew"}
     assert again.session_path is None
-    assert "Another app keeps its work" in again.session_bar.notice.text
+    assert "Another app saves its work" in again.session_bar.notice.text
 
 
 def test_a_file_outside_the_sessions_folder_is_read_only_if_agreed(new_app, section, tmp_path):
@@ -338,8 +339,7 @@ def test_versions_that_cannot_be_opened_are_not_written_over_unasked(new_app, pa
 
 def keep_here(app):
     """Press the button in the tab File."""
-    _, button = app.files.session.children[0].children
-    button.click()
+    app.files.session.keep_button.click()
 
 
 def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
@@ -348,7 +348,7 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
         app.session_path = tmp_path / "work.txt"
     with pytest.raises(DataError, match="home"):
         app.session_path = "~nobody-of-that-name/work.json"
-    with pytest.raises(DataError, match="there is no folder"):
+    with pytest.raises(DataError, match="does not exist"):
         app.session_path = tmp_path / "none" / "work.json"
     app.files.session.path.value = "work.txt"
     keep_here(app)
@@ -369,4 +369,60 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     app.files.session.path.value = ""
     keep_here(app)
     assert app.session_path is None
-    assert "Nothing is saved" in app.files.session.notice.text
+    assert "are not saved any more" in app.files.session.notice.text
+
+
+@pytest.mark.usefixtures("quick")
+def test_undoing_a_change_of_section_continues_the_first_ones_session(new_app, path, section):
+    app = new_app(session=path)
+    draw_fault(app)
+    drawing = app.picker.drawing
+    wait_for(lambda: app.session_bar.is_saved)
+    other = sw.synthetic.tilt().section
+    app.workspace.open(other, Drawing())
+    assert "work.before-000001.json" in app.session_bar.notice.text
+    draw_fault(app, [(500.0, 200.0), (800.0, 700.0)])
+    while app.section is other:
+        app.picker.editor.undo()
+    assert (app.section, app.picker.drawing) == (section, drawing)
+    theirs = path.with_name("work.before-000002.json")
+    assert str(theirs) in app.session_bar.notice.text
+    np.testing.assert_array_equal(sw.open_session(theirs).open_section().amplitude, other.amplitude)
+    assert app.session_path == path
+    draw_fault(app, OTHER)
+    app.close()
+    assert names(path) == ["F1", "F2"]
+    np.testing.assert_array_equal(find_versions(path)[0].session.open_section().amplitude, section.amplitude)
+    assert sw.open_session(path.with_name("work.before-000001.json")).faults[0].pieces == (tuple(FAULT),)
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_section_without_work_leaves_none_aside(new_app, path, section, tmp_path):
+    app = new_app(session=path)
+    draw_fault(app)
+    app.workspace.open(sw.synthetic.tilt().section, Drawing())
+    app.picker.editor.undo()
+    assert app.section is section
+    assert app.session_bar.notice.text == ""
+    app.close()
+    assert names(path) == ["F1"]
+    assert len(list(tmp_path.glob("*.before-*"))) == 1
+
+
+@pytest.mark.usefixtures("quick")
+def test_undoing_a_change_of_section_is_refused_while_the_work_cannot_be_saved(new_app, path, section, full_disk):
+    app = new_app(session=path)
+    other, history = sw.synthetic.tilt().section, app.workspace.history
+    app.section = other
+    app.interpretation = sw.Interpretation([sw.Fault([(500.0, 200.0), (800.0, 700.0)], "F1")])
+    app.fixed = (100.0, 100.0)
+    full_disk.append("")
+    keys(app.panes.original, "z", "z", modifiers=["ctrl"])
+    assert history.next_undo.document.section is section
+    with pytest.raises(DataError, match="No space left"):
+        app.picker.editor.undo()
+    assert (app.section, history.undo_count, history.redo_count) == (other, 1, 2)
+    assert "This section stays, because its work cannot be saved" in app.session_bar.notice.text
+    full_disk.clear()
+    app.picker.editor.undo()
+    assert app.section is section

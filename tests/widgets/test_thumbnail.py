@@ -38,7 +38,7 @@ def test_a_file_is_seen_as_it_will_open(tmp_path, shape, kind):
     else:
         Image.fromarray(np.where(amplitude > 0, 255, 0).astype(np.uint8)).save(path)
     picture, said = seen(path)
-    assert said == "All of it"
+    assert said == "The whole line"
     assert picture.shape == tuple(np.minimum(shape, (module.HIGHEST, module.WIDEST)))
     middle = picture.shape[1] / 2
     assert picture[:, : int(middle) - 1].max() < 10

@@ -1,1 +1,1 @@
-"""Files in the app: sections in, picks in and out, results out, and sessions that keep the work."""
+"""Files in the app: open sections, import and export picks, export results, and save sessions."""

@@ -1,4 +1,4 @@
-"""The app's tab of files: a section in, picks in and out, results out, and the session."""
+"""The app's tab File: open a section, import and export picks, export results, and choose the session's file."""
 
 from html import escape
 from pathlib import Path
@@ -14,82 +14,80 @@ from seiswidgets.widgets.messages import HINT
 from seiswidgets.widgets.workspace import Workspace
 
 HEADING = "<b>{}</b>"
-KEPT = "Every edit is saved in {} from now on."
-ASKED = "There is earlier work in {}: choose above the section what becomes of it."
-UNKEPT = "Nothing is saved by itself now."
-WHERE = "Files are on the computer that runs the notebook. A path that begins with no / begins in {}."
+SAVED = "Every edit is saved in {} from now on."
+ASKED = "There is earlier work in {}: choose above the section what to do with it."
+NOT_SAVED = "Edits are not saved any more."
+WHERE = "Files are on the computer that runs the notebook. A path that does not begin with / is relative to {}."
 
 
 class FilePanel(VBox):
-    """All that an app reads and writes.
+    """Everything that an app reads and writes.
 
     Parameters
     ----------
     workspace : Workspace
-    keeper : SessionBar
+    session_bar : SessionBar
 
     Attributes
     ----------
     section, picks, results, session : SectionOpener, PicksFiles, ResultFiles, SessionFile
-        The parts.
     """
 
-    def __init__(self, workspace: Workspace, keeper: SessionBar):
+    def __init__(self, workspace: Workspace, session_bar: SessionBar):
         self.section, self.picks = SectionOpener(workspace), PicksFiles(workspace)
-        self.results, self.session = ResultFiles(workspace), SessionFile(keeper)
+        self.results, self.session = ResultFiles(workspace), SessionFile(session_bar)
         where = HTML(HINT.format(WHERE.format(escape(str(Path.cwd())))))
         parts = {"Section": self.section, "Picks": self.picks, "Results": self.results, "Session": self.session}
         children = [child for title, part in parts.items() for child in (HTML(HEADING.format(title)), part)]
         super().__init__([where, *children])
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is being opened, read or written; False if that took too long."""
+        """Wait until nothing is being opened, read or written; False after the timeout in seconds."""
         return all(part.wait(timeout) for part in (self.section, self.picks, self.results))
 
     def end(self) -> None:
-        """Give up what is under way, and delete what was uploaded."""
+        """Cancel the job in progress, and delete uploads."""
         for part in (self.section, self.picks, self.results):
             part.end()
 
 
 class SessionFile(VBox):
-    """Where the app keeps its work by itself.
+    """Choice of the file that the app saves its work in.
 
     Parameters
     ----------
-    keeper : SessionBar
+    session_bar : SessionBar
 
     Attributes
     ----------
-    path : Text
+    path, keep_button : Text, Button
     notice : Question
-        What is wrong.
+        The result, or an error.
     """
 
-    def __init__(self, keeper: SessionBar):
-        self._keeper, self.notice = keeper, Question()
+    def __init__(self, session_bar: SessionBar):
+        self._bar, self.notice = session_bar, Question()
         layout = Layout(flex="1", width="auto")
-        self.path = Text(placeholder="folder/name.json; without, nothing is saved by itself", layout=layout)
-        keep = Button(description="Keep work here", icon="save", layout=Layout(width="auto"))
-        super().__init__([HBox([self.path, keep]), self.notice])
-        keep.on_click(lambda _: self.notice.attempt(self.keep))
-        keeper.workspace.observe(lambda change: self._take_path(), "session_path")
-        keeper.notice.observe(lambda change: self.notice.hint(""), "text")  # as when its question was answered
+        self.path = Text(placeholder="folder/name.json; if empty, edits are not saved", layout=layout)
+        self.keep_button = Button(description="Save work here", icon="save", layout=Layout(width="auto"))
+        super().__init__([HBox([self.path, self.keep_button]), self.notice])
+        self.keep_button.on_click(lambda _: self.notice.attempt(self.keep))
+        session_bar.workspace.observe(lambda change: self._take_path(), "session_path")
+        session_bar.notice.observe(lambda change: self.notice.hint(""), "text")  # its question may be answered
         self._take_path()
 
     def keep(self) -> None:
-        """Keep the work in the file of that path, and say so.
+        """Save the work under the path, and show that.
 
         Raises
         ------
         DataError, SettingError
-            If that cannot be.
+            As for `SessionBar.keep`.
         """
-        self._keeper.keep(self.path.value.strip() or None)
-        path = self._keeper.workspace.session_path
-        kept = ASKED if self._keeper.notice.answers else KEPT if path else UNKEPT
-        self.notice.hint(kept.format(path))
+        self._bar.keep(self.path.value.strip() or None)
+        text = ASKED if self._bar.notice.answers else SAVED if self._bar.path else NOT_SAVED
+        self.notice.hint(text.format(self._bar.path))
 
-    def _take_path(self):
-        if self._keeper.workspace.session_path is not None:
-            self.path.value = str(self._keeper.workspace.session_path)
+    def _take_path(self) -> None:
+        if self._bar.path is not None:
+            self.path.value = str(self._bar.path)

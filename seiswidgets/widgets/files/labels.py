@@ -18,7 +18,7 @@ LABELS = {  # by keyword
     "x_unit": "unit of x",
     "z0": "first sample at",
     "z_unit": "unit of z",
-    "z_up": "z grows upwards",
+    "z_up": "z increases upwards",
 }
 QUOTED = {keyword: f"“{label}”" for keyword, label in LABELS.items()}
 

@@ -1,6 +1,7 @@
-"""Where the section's line runs on the map: as its SEG-Y file has it, or through points that a user gives."""
+"""Course of the section's line on the map: from its SEG-Y file, or through points that the user gives."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,13 +14,13 @@ from seiswidgets.io.session.sources import FILE, SectionSource
 EXAMPLE = "605000 6073000; 629000 6074000"
 
 
-def of_segy(source: SectionSource | None) -> dict | None:
-    """Which line of the SEG-Y file the section is, as `open_section` takes it; None if it comes from no such file.
+def segy_keywords(source: SectionSource | None) -> dict[str, Any] | None:
+    """Keywords of `open_section` that select the section's line; None if it does not come from a SEG-Y file.
 
     Raises
     ------
     DataError
-        If the section's file is there no more.
+        If the section's file does not exist any more.
     """
     if source is None or source.kind != FILE or kind_of(source.name) != "SEG-Y":
         return None
@@ -32,28 +33,29 @@ def segy_line(source: SectionSource | None) -> np.ndarray:
     Raises
     ------
     DataError
-        If the section comes from no SEG-Y file, or one whose positions were not used; and as for `of_segy`.
+        If the section does not come from a SEG-Y file, or its positions were not used; and as for `segy_keywords`.
     """
-    line = of_segy(source)
-    if line is None:
+    keywords = segy_keywords(source)
+    if source is None or keywords is None:
         raise DataError("the section does not come from a SEG-Y file on the server's disk; give points of its line")
     if "dx" in source.choices:
         raise DataError(f"the positions in {source.name} were not used for the section; give points of its line")
-    return line_on_map(Path(source.name), **line)
+    return line_on_map(Path(source.name), **keywords)
 
 
 def points_of(text: str) -> list[tuple[float, float]]:
-    """Points X Y, parted by semicolons, as a user enters them.
+    """Parse points "X Y" separated by semicolons.
 
     Raises
     ------
     SettingError
-        If they are not two points or more.
+        If there are not at least two points.
     """
     try:
-        points = [tuple(map(float, point.replace(",", " ").split())) for point in text.split(";") if point.strip()]
+        rows = [point.replace(",", " ").split() for point in text.split(";") if point.strip()]
+        points = [(float(x), float(y)) for x, y in rows]
     except ValueError:
         points = []
-    if len(points) < 2 or any(len(point) != 2 for point in points):
+    if len(points) < 2:
         raise SettingError(f"points of the line must be two or more X Y, as in {EXAMPLE}, but are {text!r}")
     return points

@@ -19,13 +19,14 @@ class Question(VBox):
     ----------
     text : str
         The text shown; "" if there is none.
+    line : HTML
     """
 
     text = Unicode()
 
     def __init__(self) -> None:
-        self._line, self._answers = HTML(), HBox(layout=Layout(flex_flow="row wrap"))
-        super().__init__([self._line, self._answers], layout=Layout(display="none"))
+        self.line, self._answers = HTML(), HBox(layout=Layout(flex_flow="row wrap"))
+        super().__init__([self.line, self._answers], layout=Layout(display="none"))
 
     @property
     def answers(self) -> dict[str, Button]:
@@ -62,7 +63,7 @@ class Question(VBox):
 
     def _show(self, look: str, text: str, controls: Sequence[Widget] = ()) -> None:
         answered = self.answers.values()
-        self.text, self._line.value, self._answers.children = text, look.format(escape(text)), controls
-        for button in answered:  # or ipywidgets would keep it
+        self.text, self.line.value, self._answers.children = text, look.format(escape(text)), controls
+        for button in answered:  # or ipywidgets would keep it alive
             close_with_parts(button)
         self.layout.display = "" if text else "none"

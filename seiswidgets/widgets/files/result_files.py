@@ -1,9 +1,10 @@
-"""Results of a restoration as files in a folder, from the app."""
+"""Export of a restoration's results to files, in the app."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from ipywidgets import Button, Checkbox, GridBox, HBox, Layout, Text, VBox
 
@@ -18,28 +19,31 @@ from seiswidgets.io.exports.sections import save_section
 from seiswidgets.io.exports.xarrays import displacement
 from seiswidgets.io.files import atomic_write, user_path
 from seiswidgets.io.session.sources import SectionSource
-from seiswidgets.widgets.files.background_job import BackgroundJob
-from seiswidgets.widgets.files.file_names import file_name
-from seiswidgets.widgets.files.line_map import of_segy
+from seiswidgets.widgets.files.background_job import BackgroundJob, Report
+from seiswidgets.widgets.files.line_map import segy_keywords
 from seiswidgets.widgets.files.question import Question
+from seiswidgets.widgets.files.upload import safe_name
 from seiswidgets.widgets.workspace import Workspace
 
-DPI = 300  # of a picture of dots: print quality
+DPI = 300  # of raster figures: print quality
 REPLACE, LEAVE = "Replace them", "Leave them"
 STYLE = {"description_width": "60px"}
 
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What is exported, as it was when that was asked for; the user goes on meanwhile."""
+    """The results to export, unaffected by what the user does during the export."""
 
     restoration: Restoration
     interpretation: Interpretation
     source: SectionSource | None
 
 
+Writer = Callable[[Result, Path], None]
+
+
 class ResultFiles(VBox):
-    """Which results are written, into which folder, under which name.
+    """Choice of the results to export, the folder and the name.
 
     Parameters
     ----------
@@ -48,140 +52,141 @@ class ResultFiles(VBox):
     Attributes
     ----------
     folder, stem : Text
-        Where, and what their names begin with.
+        Folder of the files, and beginning of their names.
     kinds : dict of str to Checkbox
-        By the endings of the files.
+        Results to export, by the ends of the files' names.
     written : tuple of Path
-        By the last export.
+        Files written by the last export.
+    export_button : Button
     job : BackgroundJob
-        The export that is under way.
+        The export in progress.
     notice : Question
-        What was written, or is wrong.
+        Results and errors.
     """
 
     def __init__(self, workspace: Workspace):
-        self._workspace, self.written, self.notice = workspace, (), Question()
-        self.job = BackgroundJob(self.notice, lambda: f"The export was cancelled. {self._done()}")
-        look = {"style": STYLE, "layout": {"width": "auto", "flex": "1 1 160px"}}
-        self.folder = Text("results", description="folder", placeholder="a folder, as results", **look)
-        self.stem = Text(description="name", placeholder="that of the section", **look)
+        self._workspace, self.notice = workspace, Question()
+        self.written: tuple[Path, ...] = ()
+        self.job = BackgroundJob(self.notice, lambda: f"The export was cancelled. {self._summary()}")
+        look: dict[str, Any] = {"style": STYLE, "layout": {"width": "auto", "flex": "1 1 160px"}}
+        self.folder = Text("results", description="folder", placeholder="a folder, such as results", **look)
+        self.stem = Text(description="name", placeholder="name of the section", **look)
         self.kinds = {
-            ending: Checkbox(ending in WRITERS_AT_FIRST, description=words, indent=False, layout=Layout(width="auto"))
-            for ending, (words, _) in WRITERS.items()
+            ending: Checkbox(ending in DEFAULTS, description=label, indent=False, layout=Layout(width="auto"))
+            for ending, (label, _) in WRITERS.items()
         }
-        self._export = Button(description="Export results", icon="download", layout=Layout(width="auto"))
-        self._export.on_click(lambda _: self.notice.attempt(self.export))
-        self.job.observe(lambda change: setattr(self._export, "disabled", change.new), "busy")
+        self.export_button = Button(description="Export results", icon="download", layout=Layout(width="auto"))
+        self.export_button.on_click(lambda _: self.notice.attempt(self.export))
+        self.job.observe(lambda change: setattr(self.export_button, "disabled", change.new), "busy")
         columns = Layout(grid_template_columns="repeat(auto-fit, minmax(180px, 1fr))")
         where = HBox([self.folder, self.stem], layout=Layout(flex_flow="row wrap"))
         kinds = GridBox(list(self.kinds.values()), layout=columns)
-        super().__init__([where, kinds, HBox([self._export, self.job]), self.notice])
+        super().__init__([where, kinds, HBox([self.export_button, self.job]), self.notice])
 
     def export(self, replace: bool = False) -> None:
-        """Write what is chosen, in the background; ask before files are replaced.
+        """Export the chosen results in the background; ask before replacing files.
 
         Raises
         ------
         SettingError
-            If nothing has been restored, or nothing is chosen.
+            If there is no restoration, or nothing is chosen.
         DataError
-            If the folder cannot be made.
+            If the folder cannot be created.
         """
         chosen = [ending for ending, box in self.kinds.items() if box.value]
-        if not self._workspace.restoration.stages or not chosen:
-            raise SettingError(
-                "choose what to export"
-                if self._workspace.restoration.stages
-                else "there is no result yet: restore first"
-            )
-        stem, folder = self._stem(), _made(self.folder.value.strip())
+        if not self._workspace.restoration.stages:
+            raise SettingError("there is no result yet: restore first")
+        if not chosen:
+            raise SettingError("choose what to export")
+        stem, folder = self._stem(), _make_folder(self.folder.value.strip())
         paths = {ending: folder / f"{stem}-{ending}" for ending in chosen}
-        there = [path.name for path in paths.values() if path.exists()]
-        if there and not replace:
+        existing = [path.name for path in paths.values() if path.exists()]
+        if existing and not replace:
             again = partial(self.notice.attempt, partial(self.export, replace=True))
-            self.notice.ask(f"There are already: {', '.join(there)}.", {REPLACE: again, LEAVE: lambda: None})
+            self.notice.ask(f"These files exist already: {', '.join(existing)}.", {REPLACE: again, LEAVE: lambda: None})
             return
         self.written = ()
         result = Result(self._workspace.restoration, self._workspace.interpretation, self._workspace.source)
         self.job.begin(partial(self._write, result, paths))
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is being written; False if that took too long."""
+        """Wait until no export is in progress; False after the timeout in seconds."""
         return self.job.wait(timeout)
 
     def end(self) -> None:
-        """Write no more than the file that is under way."""
+        """Stop after the file that is being written."""
         self.job.drop()
 
-    def _write(self, result, paths, tell):
-        """Write file after file, each of them whole; one that cannot be written does not keep others from it."""
-        trouble: list[str | Keyword] = []
+    def _write(self, result: Result, paths: dict[str, Path], report: Report) -> Callable[[], None]:
+        """Write one complete file after the other; if one cannot be written, continue with the next."""
+        errors: list[str | Keyword] = []
         for count, (ending, path) in enumerate(paths.items()):
-            if not tell(count / len(paths)):
+            if not report(count / len(paths)):
                 break
             self.notice.hint(f"Writing {path.name} ...")
             try:
                 WRITERS[ending][1](result, path)
                 self.written = (*self.written, path)
             except SeiswidgetsError as error:
-                trouble += [error.text, ". "]
-        if trouble:
-            return partial(self.notice.alert, Message(*trouble, self._done()))
-        return lambda: self.notice.hint(self._done())
+                errors += [error.text, ". "]
+        if errors:
+            return partial(self.notice.alert, Message(*errors, self._summary()))
+        return lambda: self.notice.hint(self._summary())
 
-    def _done(self):
-        """What was written, in words."""
+    def _summary(self) -> str:
         if not self.written:
             return "Nothing was written."
         return f"Wrote into {self.written[0].parent.absolute()}: {', '.join(path.name for path in self.written)}."
 
-    def _stem(self):
-        """The name that was given, or the section's with nothing in it that no file's name may hold."""
+    def _stem(self) -> str:
+        """The name that was entered, or a harmless form of the section's name."""
         given = self.stem.value.strip()
         if given != Path(given).name or given in (".", ".."):
-            raise SettingError(f"the name must be a name without folders, but is {given!r}; give those as the folder")
-        return given or file_name(self._workspace.section.name, "section")
+            raise SettingError(f"the name must be a name without folders, but is {given!r}; enter those as the folder")
+        return given or safe_name(self._workspace.section.name, "section")
 
 
-def _made(folder):
-    """A folder, made if its parent is there."""
+def _make_folder(folder: str) -> Path:
+    """Create a folder, if it does not exist."""
     if not folder:
-        raise SettingError("give the folder that the files shall be written into")
+        raise SettingError("give the folder for the files")
     path = user_path(folder)
     try:
         path.mkdir(exist_ok=True)
     except (OSError, ValueError) as error:
-        raise DataError(f"the folder {folder!r} cannot be made: {error}; choose another") from error
+        raise DataError(f"the folder {folder!r} cannot be created: {error}; choose another") from error
     return path
 
 
-def _write_figure(result, path):
-    """On a figure of its own: pyplot's are the user's, on another thread."""
-    from matplotlib.figure import Figure  # slow to load: the app's first paint need not wait for it
+def _write_figure(result: Result, path: Path) -> None:
+    """Write a figure made without pyplot, whose figures belong to the user and to another thread."""
+    from matplotlib.figure import Figure  # slow to import: the app appears sooner without it
 
     figure = plot.workflow(result.restoration, result.interpretation, figure=Figure())
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=DPI)
 
 
-def _write_displacement(result, path):
+def _write_displacement(result: Result, path: Path) -> None:
     fields = displacement(result.restoration)
     with atomic_write(path) as draft:
         fields.to_netcdf(draft)
 
 
-def _write_segy(result, path):
-    """With the headers of the file that the section came from, if that is SEG-Y."""
-    line = of_segy(result.source)
-    like = {} if line is None else {"like": result.source.name, "x0": result.restoration.original.x0, **line}
-    save_section(result.restoration, path, **like)
+def _write_segy(result: Result, path: Path) -> None:
+    """Write the section with the headers of the SEG-Y file that it came from, if any."""
+    source, keywords = result.source, segy_keywords(result.source)
+    if source is None or keywords is None:
+        save_section(result.restoration, path)
+    else:
+        save_section(result.restoration, path, like=source.name, x0=result.restoration.original.x0, **keywords)
 
 
-def _of_restoration(save: Callable) -> Callable:
+def _of_restoration(save: Callable[[Restoration, Path], None]) -> Writer:
     return lambda result, path: save(result.restoration, path)
 
 
-WRITERS = {
+WRITERS: dict[str, tuple[str, Writer]] = {
     "restored.npz": ("section, NumPy (.npz)", _of_restoration(save_section)),
     "restored.sgy": ("section, SEG-Y (.sgy)", _write_segy),
     "figure.png": ("figure (.png, 300 dpi)", _write_figure),
@@ -191,4 +196,4 @@ WRITERS = {
     "report.html": ("report (.html)", _of_restoration(save_report)),
     "displacement.nc": ("displacement (.nc)", _write_displacement),
 }
-WRITERS_AT_FIRST = ("restored.npz", "figure.png", "report.html")
+DEFAULTS = ("restored.npz", "figure.png", "report.html")

@@ -1,8 +1,10 @@
-"""What is asked about a section's file before it is opened: fields for what it does not say itself."""
+"""Fields for the properties of a section that its file does not state."""
 
+from collections.abc import Sequence
 from html import escape
+from typing import Any
 
-from ipywidgets import HTML, Dropdown, Layout, Text, VBox
+from ipywidgets import HTML, Dropdown, Layout, Text, VBox, Widget
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
@@ -14,72 +16,83 @@ from seiswidgets.widgets.closing import close_with_parts
 from seiswidgets.widgets.files.labels import LABELS, in_labels
 from seiswidgets.widgets.messages import HINT
 
-HEIGHTS = {
+VERTICAL_AXES = {
     "two-way time (ms)": "ms",
     "two-way time (s)": "s",
     "depth (m)": "m",
     "depth (km)": "km",
     "depth (ft)": "ft",
 }
-VELOCITY, TRACES_APART, SAMPLES_APART = 2000.0, 25.0, 4.0  # usual values, offered where a file says nothing
+VELOCITY, TRACES_APART, SAMPLES_APART = 2000.0, 25.0, 4.0  # offered if the file states none
 ALL = "all traces"
 LINES = ("inline", "crossline", "traces")
-NUMBER = {"inline": "its number", "crossline": "its number", "traces": "counted from 0"}
+NUMBER = {"inline": "inline number", "crossline": "crossline number", "traces": "counted from 0"}
 EXTENT = {"x_min": "left edge", "x_max": "right edge", "z_min": "top", "z_max": "bottom"}
 OF_Z = ("dz", "z0", "z_min", "z_max")
 OF_X = ("dx", "x_min", "x_max")
-KEPT = ("z_unit", "velocity", "x_unit")  # of the same file, when it is looked at again
-ASSUMED = "Assumed, as the file does not say: {}. Correct what is wrong."
-CROPPED = " The picture must show the section alone: cut its margins off before."
+KEPT = ("z_unit", "velocity", "x_unit")  # when the same file is previewed again
+ASSUMED = "Assumed, since the file does not state it: {}. Correct it if necessary."
+CROPPED = " The picture must show only the section: crop its margins first."
 REASON = '<div style="line-height: 1.4">{}.</div>'
 STYLE = {"description_width": "130px"}
 
 
 class SectionFields(VBox):
-    """Fields for the choices of `open_section` that a file needs, filled in with usual values where there are any."""
+    """Fields for the keywords of `open_section` that a file needs, filled with usual values.
 
-    def __init__(self):
+    Attributes
+    ----------
+    fields : dict of str to Text or Dropdown
+        By keyword; "line" and "number" select a line, "x_min" to "z_max" are its extent.
+    note : HTML
+        Findings about the file, and the values that are assumed.
+    """
+
+    children: tuple[Widget, ...]
+
+    def __init__(self) -> None:
         super().__init__()
-        self.fields = {}
-        self._note, self._info = HTML(), None
+        self.fields: dict[str, Text | Dropdown] = {}
+        self.note = HTML()
+        self._info: SectionInfo | None = None
 
     def show(self, info: SectionInfo) -> None:
-        """Show the fields that this file needs."""
+        """Show the fields that a file needs."""
         before = self.fields if self._info and self._info.path == info.path else {}
         self._info, self.fields = info, {}
         if info.kind == "SEG-Y":
-            self._ask_line()
+            self._add_line(info)
         if any("z_unit" in need for need in info.needed):
-            self._ask_units()
+            self._add_units(info)
         if any("extent" in need for need in info.needed):
-            self._ask_extent()
+            self._add_extent(info)
         elif info.kind == "SEG-Y":
-            self._ask_spacing()
+            self._add_spacing(info)
         for name in set(KEPT) & set(before) & set(self.fields):
             self.fields[name].value = before[name].value
-        self._take_units()
-        replaced = [field for field in self.children if field is not self._note]
-        self.children = [*self.fields.values(), self._note]
-        for field in replaced:  # or ipywidgets would keep it
+        self._update_units()
+        replaced = [field for field in self.children if field is not self.note]
+        self.children = (*self.fields.values(), self.note)
+        for field in replaced:  # or ipywidgets would keep it alive
             close_with_parts(field)
 
-    def choices(self) -> dict:
-        """The keywords of `open_section`.
+    def choices(self) -> dict[str, Any]:
+        """Keywords of `open_section`.
 
         Raises
         ------
         SettingError
-            If a field holds no number where it must.
+            If a field that needs a number does not contain one.
         """
-        said = {name: self._value(name) for name, field in self.fields.items() if field.layout.display != "none"}
-        line, number = said.pop("line", ALL), said.pop("number", None)
+        choices = {name: self._value(name) for name, field in self.fields.items() if field.layout.display != "none"}
+        line, number = choices.pop("line", ALL), choices.pop("number", None)
         if line != ALL:
-            said[line] = number
-        if "x_min" in said:
-            said["extent"] = _extent({name: said.pop(name) for name in EXTENT})
-        return {name: value for name, value in said.items() if value is not None}
+            choices[line] = number
+        if "x_min" in choices:
+            choices["extent"] = _extent({name: choices.pop(name) for name in EXTENT})
+        return {name: value for name, value in choices.items() if value is not None}
 
-    def _value(self, name):
+    def _value(self, name: str) -> Any:
         value = self.fields[name].value
         if name in ("line", "z_unit", "x_unit"):
             return value
@@ -87,45 +100,46 @@ class SectionFields(VBox):
         if name == "number":
             return _line_number(self.fields["line"].value, text)
         if not text and self._placeholder(name):
-            return None  # as the file says
+            return None  # as in the file
         return validation.finite_number(EXTENT.get(name) or LABELS[name], text)
 
-    def _ask_line(self):
-        self._choose("line", "line", LINES if self._info.inlines else (ALL, *LINES))
-        self._ask("number", "", "")
-        self.fields["line"].observe(self._take_line, "value")
-        self._take_line()
+    def _add_line(self, info: SectionInfo) -> None:
+        self._add_choice("line", "line", LINES if info.inlines else (ALL, *LINES))
+        self._add_text("number", "", "")
+        self.fields["line"].observe(lambda change: self._update_number(info), "value")
+        self._update_number(info)
 
-    def _take_line(self, change=None):
+    def _update_number(self, info: SectionInfo) -> None:
+        """Offer the middle line of a volume, or all traces."""
         kind, number = self.fields["line"].value, self.fields["number"]
         number.layout.display = "none" if kind == ALL else ""
         number.description = NUMBER.get(kind, "")
         if kind in ("inline", "crossline"):
-            middle = self._info.middle(kind)
+            middle = info.middle(kind)
             number.value = "" if middle is None else str(middle)
         elif kind == "traces":
-            number.value = f"0 to {self._info.shape[1] - 1}"
+            number.value = f"0 to {info.shape[1] - 1}"
 
-    def _ask_units(self):
-        self._choose("z_unit", "vertical axis", list(HEIGHTS.items()))
-        self._ask("velocity", "velocity (m/s)", VELOCITY)
-        self._choose("x_unit", "unit of x", list(METRES))
-        self.fields["x_unit"].value = self._info.x_unit or "m"
+    def _add_units(self, info: SectionInfo) -> None:
+        self._add_choice("z_unit", "vertical axis", list(VERTICAL_AXES.items()))
+        self._add_text("velocity", "velocity (m/s)", VELOCITY)
+        self._add_choice("x_unit", "unit of x", list(METRES))
+        self.fields["x_unit"].value = info.x_unit or "m"
         for name in ("z_unit", "x_unit"):
-            self.fields[name].observe(self._take_units, "value")
+            self.fields[name].observe(lambda change: self._update_units(), "value")
 
-    def _ask_extent(self):
-        samples, traces = self._info.shape
-        reach = (traces - 1) * TRACES_APART, (samples - 1) * SAMPLES_APART
-        for (name, words), value in zip(EXTENT.items(), (0, reach[0], 0, reach[1]), strict=True):
-            self._ask(name, words, value)
+    def _add_extent(self, info: SectionInfo) -> None:
+        samples, traces = info.shape
+        width, height = (traces - 1) * TRACES_APART, (samples - 1) * SAMPLES_APART
+        for (name, label), value in zip(EXTENT.items(), (0, width, 0, height), strict=True):
+            self._add_text(name, label, value)
 
-    def _ask_spacing(self):
+    def _add_spacing(self, info: SectionInfo) -> None:
         for name, usual in (("dx", TRACES_APART), ("dz", SAMPLES_APART), ("z0", 0)):
-            self._ask(name, LABELS[name], usual if name in self._info.needed else "")
+            self._add_text(name, LABELS[name], usual if name in info.needed else "")
 
-    def _take_units(self, change=None):
-        """Name the units behind what they are of, and say what is assumed."""
+    def _update_units(self) -> None:
+        """Show the units in the labels, and what is assumed."""
         units = {name: self.fields[name].value for name in ("x_unit", "z_unit") if name in self.fields}
         if units:
             self.fields["velocity"].layout.display = "" if units["z_unit"] in SECONDS else "none"
@@ -133,40 +147,41 @@ class SectionFields(VBox):
                 unit = units["x_unit" if name in OF_X else "z_unit"]
                 self.fields[name].description = f"{EXTENT.get(name) or LABELS[name]} ({unit})"
                 self.fields[name].placeholder = self._placeholder(name)
-        self._note.value = self._said()
+        self.note.value = "" if self._info is None else self._note(self._info)
 
-    def _placeholder(self, name):
-        """What the file says, in the units that are chosen; "" where it says nothing."""
-        found = None if name in self._info.needed else getattr(self._info, name, None)
-        if found is None:
+    def _placeholder(self, name: str) -> str:
+        """Value stated in the file, in the chosen units; "" if there is none."""
+        info = self._info
+        value = None if info is None or name in info.needed else getattr(info, name, None)
+        if info is None or value is None:
             return ""
-        if name == "dx" and self._info.inlines:
-            return "as the file says"  # of a volume, what was measured is of its first line
+        if name == "dx" and info.inlines:
+            return "as in the file"  # the spacing of a volume was measured along its first line only
         scale = 1 if name == "dx" else PER_MS_OR_M[self.fields["z_unit"].value]
-        return f"{scale * found:g}, as the file says"
+        return f"{scale * value:g}, as in the file"
 
-    def _said(self):
-        """What is not in the file, as HTML: why not, and which fields hold no more than a usual value."""
-        reasons = "".join(REASON.format(escape(in_labels(one.text))) for one in worst_first(self._info.findings))
-        assumed = []
+    def _note(self, info: SectionInfo) -> str:
+        """HTML of the findings about a file, and of the values that are assumed."""
+        findings = "".join(REASON.format(escape(in_labels(one.text))) for one in worst_first(info.findings))
+        assumed: list[str] = []
         if "z_unit" in self.fields:
             assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
-            assumed += [] if self._info.x_unit else ["unit of x"]
-        assumed += [LABELS[name] for name in ("dx", "dz", "z0") if name in self._info.needed]
-        assumed += [words for name, words in EXTENT.items() if name in self.fields]
-        cropped = CROPPED if self._info.kind == "picture" else ""
-        return reasons + (HINT.format(ASSUMED.format(", ".join(assumed)) + cropped) if assumed else "")
+            assumed += [] if info.x_unit else ["unit of x"]
+        assumed += [LABELS[name] for name in ("dx", "dz", "z0") if name in info.needed]
+        assumed += [label for name, label in EXTENT.items() if name in self.fields]
+        cropped = CROPPED if info.kind == "picture" else ""
+        return findings + (HINT.format(ASSUMED.format(", ".join(assumed)) + cropped) if assumed else "")
 
-    def _ask(self, name, words, value):
+    def _add_text(self, name: str, label: str, value: float | str) -> None:
         text = value if isinstance(value, str) else f"{value:g}"
-        self.fields[name] = Text(text, description=words, style=STYLE, layout=Layout(width="auto"))
+        self.fields[name] = Text(text, description=label, style=STYLE, layout=Layout(width="auto"))
 
-    def _choose(self, name, words, options):
-        self.fields[name] = Dropdown(options=options, description=words, style=STYLE, layout=Layout(width="auto"))
+    def _add_choice(self, name: str, label: str, options: Sequence) -> None:
+        self.fields[name] = Dropdown(options=options, description=label, style=STYLE, layout=Layout(width="auto"))
 
 
-def _extent(edges):
-    """The edges in their order, each of which must be beyond the one across from it."""
+def _extent(edges: dict[str, float]) -> list[float]:
+    """Extent of a section from its edges; right must be more than left, and bottom more than top."""
     for low, high in (("x_min", "x_max"), ("z_min", "z_max")):
         if not edges[low] < edges[high]:
             raise SettingError(
@@ -175,8 +190,8 @@ def _extent(edges):
     return list(edges.values())
 
 
-def _line_number(kind, text):
-    """The number of a line, or the slice of some traces."""
+def _line_number(kind: str, text: str) -> int | slice:
+    """Parse the number of a line, or a range of traces."""
     first, _, last = text.partition("to")
     try:
         return slice(int(first), int(last) + 1) if kind == "traces" else int(text)

@@ -1,16 +1,20 @@
-"""Opening a section in the app: what a file holds, what it does not say, and the opening itself."""
+"""Opening a section in the app: choice of the file, preview, fields for what the file does not state."""
 
+from collections.abc import Callable
 from functools import partial
 from html import escape
 from pathlib import Path
+from typing import Any
 
 from ipywidgets import HTML, Button, HBox, Layout, VBox
+from traitlets import Bunch
 
+from seiswidgets.geology.section import Section
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.info import SectionInfo
 from seiswidgets.io.opening import open_section, preview
 from seiswidgets.io.session.sources import FILE, SectionSource
-from seiswidgets.widgets.files.background_job import BackgroundJob
+from seiswidgets.widgets.files.background_job import BackgroundJob, Report
 from seiswidgets.widgets.files.file_field import FileField
 from seiswidgets.widgets.files.header_bytes import HeaderBytes
 from seiswidgets.widgets.files.question import Question
@@ -23,11 +27,11 @@ HEADER = (
     "<details><summary>textual header</summary>"
     '<pre tabindex="0" style="line-height: 1.2; overflow: auto; max-height: 240px">{}</pre></details>'
 )
-KEEP, DROP, BACK = "Keep the picks", "Drop the picks", "Do not open"
+KEEP, DROP, CANCEL = "Keep the picks", "Drop the picks", "Do not open"
 
 
 class SectionOpener(VBox):
-    """A file is chosen, previewed, and opened, both on a thread; the app then shows its section.
+    """Previews a chosen file and opens it, both in the background; the app then shows its section.
 
     Parameters
     ----------
@@ -36,111 +40,119 @@ class SectionOpener(VBox):
     Attributes
     ----------
     file : FileField
+    summary, thumbnail : HTML
+        Preview of the file.
     header_bytes : HeaderBytes
-        Of SEG-Y.
+        Shown for SEG-Y.
     fields : SectionFields
+    open_button : Button
     job : BackgroundJob
-        The preview or the opening that is under way.
+        The preview or the opening in progress.
     notice : Question
-        What is wrong, or asked.
+        Questions and errors.
     """
 
     def __init__(self, workspace: Workspace):
-        self._workspace, self._is_known = workspace, False
+        self._workspace, self._is_previewed = workspace, False
         self.file = FileField("section: path of a SEG-Y, picture, NumPy or text file", KINDS)
         self.header_bytes, self.fields, self.notice = HeaderBytes(), SectionFields(), Question()
         self.job = BackgroundJob(self.notice, lambda: "Opening was cancelled; the section is as it was.")
-        self._preview, self._thumbnail, self._page = HTML(), HTML(), VBox()
-        self._open = Button(description="Open section", icon="folder-open", layout=Layout(width="auto"), disabled=True)
-        super().__init__([self.file, self._page, HBox([self._open, self.job]), self.notice])
+        self.summary, self.thumbnail, self._page = HTML(), HTML(), VBox()
+        self.open_button = Button(
+            description="Open section", icon="folder-open", layout=Layout(width="auto"), disabled=True
+        )
+        super().__init__([self.file, self._page, HBox([self.open_button, self.job]), self.notice])
         self.file.observe(self._take_path, "path")
         self.file.observe(lambda change: self.notice.alert(change.new), "error")
-        self.header_bytes.observe(self._look, "said")
-        self.job.observe(self._take_busy, "busy")
-        self._open.on_click(lambda _: self.load())
+        self.header_bytes.observe(lambda change: self._preview(), "entered")
+        self.job.observe(lambda change: self._update_button(), "busy")
+        self.open_button.on_click(lambda _: self.load())
 
     def load(self) -> None:
-        """Open the chosen file, as the fields say, in the background."""
+        """Open the chosen file with the choices in the fields, in the background."""
         self.notice.hint("")
         self.notice.attempt(lambda: self.job.begin(partial(self._read, self.file.path, self._choices())))
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is being looked at or opened; False if that took too long."""
+        """Wait until no preview or opening is in progress; False after the timeout in seconds."""
         return self.job.wait(timeout)
 
     def end(self) -> None:
-        """Give up what is under way, and delete what was uploaded."""
+        """Cancel the job in progress, and delete uploads."""
         self.job.drop()
         self.file.end()
 
-    def _choices(self):
+    def _choices(self) -> dict[str, Any]:
         choices, header_bytes = self.fields.choices(), self._header_bytes()
         return choices | ({"header_bytes": header_bytes} if header_bytes else {})
 
-    def _header_bytes(self):
-        """Those that were chosen, None if they are not shown."""
+    def _header_bytes(self) -> dict[str, int] | None:
+        """Chosen header bytes; None if they are standard, or not shown."""
         return self.header_bytes.chosen() if self.header_bytes in self._page.children else None
 
-    def _take_path(self, change):
+    def _take_path(self, change: Bunch) -> None:
         self._page.children = ()
-        self.header_bytes.rest()
-        self._look()
+        self.header_bytes.reset()
+        self._preview()
 
-    def _look(self, change=None):
-        """Show what the file holds, once that is known."""
+    def _preview(self) -> None:
+        """Preview the file in the background."""
         self.notice.hint("")
         self.job.drop()
-        self._is_known = False
-        self._take_busy()
+        self._is_previewed = False
+        self._update_button()
         if self.file.path:
-            self.notice.attempt(lambda: self.job.begin(partial(self._preview_of, self.file.path, self._header_bytes())))
+            self.notice.attempt(
+                lambda: self.job.begin(partial(self._read_preview, self.file.path, self._header_bytes()))
+            )
 
-    def _preview_of(self, path, header_bytes, tell):
+    def _read_preview(self, path: str, header_bytes: dict[str, int] | None, report: Report) -> Callable[[], None]:
         info = preview(path, header_bytes=header_bytes)
-        return partial(self._show_preview, info, thumbnail(info, header_bytes, tell))
+        return partial(self._show_preview, info, thumbnail(info, header_bytes, report))
 
-    def _show_preview(self, info, picture):
-        self._preview.value, self._thumbnail.value = _described(info), picture
+    def _show_preview(self, info: SectionInfo, picture: str) -> None:
+        self.summary.value, self.thumbnail.value = _summary(info), picture
         self.fields.show(info)
         self._page.children = [
-            self._preview,
-            self._thumbnail,
+            self.summary,
+            self.thumbnail,
             *[self.header_bytes] * (info.kind == "SEG-Y"),
             self.fields,
         ]
-        self._is_known = True
-        self._take_busy()
+        self._is_previewed = True
+        self._update_button()
 
-    def _take_busy(self, change=None):
-        self._open.disabled = self.job.busy or not self._is_known
+    def _update_button(self) -> None:
+        self.open_button.disabled = self.job.busy or not self._is_previewed
 
-    def _read(self, path, choices, tell):
+    def _read(self, path: str, choices: dict[str, Any], report: Report) -> Callable[[], None]:
         """Read a section, on the job's thread."""
-        section = open_section(path, **choices, progress=tell)
-        stays = not self.file.is_uploaded
-        source = SectionSource(FILE, str(Path(path).expanduser().absolute()), choices) if stays else None
+        section = open_section(path, **choices, progress=report)
+        source = None  # an upload is temporary
+        if not self.file.is_uploaded:
+            source = SectionSource(FILE, str(Path(path).expanduser().absolute()), choices)
         return partial(self._take, section, source)
 
-    def _take(self, section, source):
-        """Show a section, once it is agreed what becomes of the picks."""
-        drawn = self._workspace.drawing
-        keep, drop = (partial(self._show, section, picks, source) for picks in (drawn, Drawing()))
-        if not drawn.picks:
+    def _take(self, section: Section, source: SectionSource | None) -> None:
+        """Show a section; ask first what to do with the picks, if there are any."""
+        drawing = self._workspace.drawing
+        keep, drop = (partial(self._show, section, picks, source) for picks in (drawing, Drawing()))
+        if not drawing.picks:
             drop()
             return
         answers = {KEEP: keep} if self._workspace.picks_fit(section) else {}
         fate = "lie on the new section too" if answers else "do not lie on the new section, and cannot be kept"
-        text = f"The {len(drawn.picks)} picks {fate}. Undo brings the present section and its picks back."
-        self.notice.ask(text, {**answers, DROP: drop, BACK: lambda: None})
+        text = f"The {len(drawing.picks)} picks {fate}. Undo brings the present section and its picks back."
+        self.notice.ask(text, {**answers, DROP: drop, CANCEL: lambda: None})
 
-    def _show(self, section, drawing, source):
+    def _show(self, section: Section, drawing: Drawing, source: SectionSource | None) -> None:
         samples, traces = section.shape
         self.notice.hint(f"Opened: {section.name}, {traces:,} traces of {samples:,} samples.")
         self.notice.attempt(partial(self._workspace.open, section, drawing, source=source))
 
 
-def _described(info: SectionInfo) -> str:
-    """What a file holds, as HTML; all that comes from the file is escaped."""
+def _summary(info: SectionInfo) -> str:
+    """HTML summary of a file; all text from the file is escaped."""
     samples, traces = info.shape
     parts = [f"{info.kind} ({info.format}), {_size(info.size)}", f"{traces:,} traces of {samples:,} samples"]
     for name, lines in (("inlines", info.inlines), ("crosslines", info.crosslines)):
@@ -152,5 +164,5 @@ def _described(info: SectionInfo) -> str:
     return f'<div style="line-height: 1.4">{escape("; ".join(parts))}.</div>{header}'
 
 
-def _size(size):
+def _size(size: int) -> str:
     return f"{size / 2**20:.1f} MiB" if size >= 2**20 else f"{size / 2**10:.1f} KiB"

@@ -1,35 +1,43 @@
-"""The line of the app that keeps its work in a session's file, and offers what it finds there."""
+"""Line of the app that saves its work in a session's file, and offers earlier work found there."""
 
 import contextlib
+from collections.abc import Callable, Mapping
 from functools import partial
+from os import PathLike
 from pathlib import Path
 from weakref import WeakValueDictionary
 
-from ipywidgets import Dropdown, Layout, VBox
+from ipywidgets import Dropdown, Layout, VBox, Widget
+from traitlets import Bunch
 
 from seiswidgets.errors import DataError, SettingError, Text
+from seiswidgets.geology.picks import FAULT, HORIZON
+from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
-from seiswidgets.interaction.drawing import FAULT, HORIZON, Drawing
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.files import user_path
 from seiswidgets.io.session.autosave import Autosave, Version, find_versions, numbered_files, set_aside
 from seiswidgets.io.session.saved_picks import SavedPick
 from seiswidgets.io.session.session import Session, SessionWithSection, source_beside
-from seiswidgets.io.session.sources import FILE, section_path, section_sha256
+from seiswidgets.io.session.sources import FILE, SectionSource, section_path, section_sha256
 from seiswidgets.widgets.files.labels import counted
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.jobs import Job, JobRunner
 from seiswidgets.widgets.messages import in_words
 from seiswidgets.widgets.workspace import Workspace
 
-OPEN, PICKS_ONLY, ANEW = "Open", "Picks only", "Start anew"
-SAFE = "What is drawn stays in memory meanwhile, and is saved as soon as that works."
+OPEN, PICKS_ONLY, START_ANEW = "Open", "Picks only", "Start anew"
+READ, BACK = "Read it", "Back"
+STAYS_IN_MEMORY = "Your edits stay in memory, and are saved as soon as possible."
 UNSAVED = "Nothing is saved until you choose."
 
-_in_use = WeakValueDictionary()  # the bars of this kernel, by the path that each keeps
+Answers = Mapping[str, Callable[[], None]]
+
+_in_use: WeakValueDictionary[Path, "SessionBar"] = WeakValueDictionary()  # bars of this kernel, by path
 
 
 class SessionBar(VBox):
-    """Saves the work of an app after every finished edit, and asks first about earlier work that it finds.
+    """Saves a workspace after every finished edit, and first asks about earlier work under the same path.
 
     Parameters
     ----------
@@ -38,15 +46,21 @@ class SessionBar(VBox):
     Attributes
     ----------
     notice : Question
-        What is said, and asked, when the app or its user begins something.
+        Questions and news about the session.
     news : Question
-        That saving fails, or works again; not a part of the bar, as it comes while lines are drawn, and must not move
-        what is below.
+        News that saving fails, or works again. To be placed below the panes: it appears while lines are drawn, and
+        must not move them.
+    versions : Dropdown
+        Versions of earlier work to choose from.
     """
 
     def __init__(self, workspace: Workspace):
-        self.workspace, self._autosave, self._sha256 = workspace, None, None
-        self._runner, self._has_work, self._left = JobRunner(), False, None
+        self.workspace, self._runner = workspace, JobRunner()
+        self._autosave: Autosave | None = None  # None as long as nothing is saved
+        self._section: Section | None = None  # whose work is saved
+        self._sha256, self._has_work = "", False
+        self._aside: Path | None = None  # work on the section shown before
+        self._question: tuple[str, Answers, tuple[Widget, ...]] = "", {}, ()
         self.notice, self.news = Question(), Question()
         self.versions = Dropdown(description="version", layout=Layout(width="auto", max_width="100%"))
         super().__init__([self.notice])
@@ -55,21 +69,26 @@ class SessionBar(VBox):
 
     @property
     def path(self) -> Path | None:
-        """Where the session is kept."""
+        """Path of the session; None if there is none."""
         return self.workspace.session_path
 
-    def keep(self, path: str | Path | None) -> None:
-        """Keep the work under this path from now on, or nowhere.
+    @property
+    def is_saved(self) -> bool:
+        """Whether all finished edits are in the session's file."""
+        return self._autosave is not None and self._autosave.pending is None
 
-        If there is work already, nothing is written until the user has chosen between that and what is on the screen.
-        Another app that keeps its work there ends to do so.
+    def keep(self, path: str | PathLike | None) -> None:
+        """Save the work under a path from now on, or nowhere.
+
+        If there is earlier work under the path, nothing is written until the user has chosen between that and the work
+        on the screen. If another app saves its work there, it stops doing so.
 
         Raises
         ------
         SettingError
-            If it does not end in .json.
+            If the path does not end in .json.
         DataError
-            If there is no such folder; or if the path is None, and what is not saved yet cannot be.
+            If the folder does not exist, or if the path is None and unsaved edits cannot be saved.
         """
         if path is None:
             self.end()
@@ -77,25 +96,26 @@ class SessionBar(VBox):
         path = _checked(path)
         if path == self.path and self._autosave is not None:
             return
-        with contextlib.suppress(DataError):  # whose remedy may be this path: all that is drawn is saved there
+        with contextlib.suppress(DataError):  # the new path may be the remedy: all edits are saved there
             self.end()
-        self.news.hint("")
         if path in _in_use:
             _in_use[path].give_up()
+        self.news.hint("")
         self.workspace.session_path, _in_use[path] = path, self
         versions = find_versions(path)
         if versions:
-            self._offer(versions)
+            self._offer(path, versions)
         elif numbered_files(path):
-            self._ask(f"{path} has earlier versions, but none that can be opened. {UNSAVED}", {ANEW: self._start_anew})
+            text = f"{path} has earlier versions, but none that can be opened. {UNSAVED}"
+            self._ask(text, {START_ANEW: partial(self._start_anew, path)})
         else:
             self._begin(path)
 
     def end(self) -> None:
-        """Save what is not saved yet, and then keep the work nowhere; a DataError if it cannot be saved."""
+        """Save unsaved edits, and stop saving; a DataError if they cannot be saved."""
         path, autosave = self.path, self._autosave
-        self.workspace.session_path = self._autosave = None
-        if _in_use.get(path) is self:
+        self.workspace.session_path = self._autosave = self._section = None
+        if path is not None and _in_use.get(path) is self:
             del _in_use[path]
         self._runner.drop()
         self.notice.hint("")
@@ -104,154 +124,174 @@ class SessionBar(VBox):
         self.news.hint("")
 
     def give_up(self) -> None:
-        """End, as another app keeps its work in the same file; what cannot be saved stays in memory."""
+        """Stop saving, since another app saves its work in the same file; unsaved edits may stay in memory."""
         path = self.path
-        with contextlib.suppress(DataError):  # which is said already
+        with contextlib.suppress(DataError):  # shown already
             self.end()
-        self.notice.hint(f"Another app keeps its work in {path} now; this one saves no more.")
-
-    def _leave_section(self):
-        """Set the work aside before another section is opened; a DataError, if it cannot be saved, prevents that."""
-        path = self.path
-        if self._autosave is None:
-            return
-        try:
-            self.end()
-            aside = set_aside(path)
-        except DataError:
-            self._begin(path)
-            raise
-        self._left = path, aside
+        self.notice.hint(f"Another app saves its work in {path} now; this one no longer does.")
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is being opened; False if that took too long."""
+        """Wait until nothing is being opened; False after the timeout in seconds."""
         return self._runner.wait(timeout)
 
-    def _begin(self, path):
-        """Save under a path from now on."""
+    def _begin(self, path: Path) -> None:
+        """Save the present section's work under a path from now on."""
         self.workspace.session_path, _in_use[path] = path, self
-        self._sha256 = section_sha256(self.workspace.section)
-        self._autosave, self._has_work = Autosave(path, report=self._report), False
-        self._take_edit()
+        self._section, self._has_work = self.workspace.section, False
+        self._sha256 = section_sha256(self._section)
+        self._autosave = Autosave(path, report=partial(self._report, path))
+        self._save(path)
 
-    def _take_edit(self, change=None):
-        """Have the work saved, from the first pick or held point on."""
-        if self._left is not None:
-            (path, aside), self._left = self._left, None
-            self._begin(path)
-            self.notice.hint(f"The work on the earlier section stays in {aside}." if aside else "")
+    def _take_edit(self, change: Bunch) -> None:
+        path = self.path
+        if path is None or self._section is None:
             return
+        if self.workspace.section is not self._section:
+            self._begin(path)
+            self.notice.hint(f"The work on the other section stays in {self._aside}." if self._aside else "")
+        else:
+            self._save(path)
+
+    def _save(self, path: Path) -> None:
+        """Save the document if it is settled, from the first pick or held point on."""
         document = self.workspace.document
         self._has_work = self._has_work or bool(document.drawing.picks) or document.plan.fixed is not None
         if self._autosave is not None and self._has_work and self.workspace.settled:
-            self._autosave.save(session_of(document, self._sha256, self.path))
+            self._autosave.save(_to_save(document, self._sha256, path))
 
-    def _report(self, error):
-        """Say that saving fails, or works again; on the thread that saves."""
-        if error is None:
-            self.news.hint(f"Saved again in {self.path}.")
-        else:
-            self.news.alert(Text(error.text, ". ", SAFE))
+    def _leave_section(self) -> None:
+        """Set the work aside before another section is shown.
 
-    def _offer(self, versions):
-        self.versions.options = [(_words(version), version) for version in versions]
-        self.versions.value = versions[0]
-        self._ask(
-            f"{self.path} holds earlier work. {UNSAVED}",
-            {OPEN: self._open, PICKS_ONLY: self._open_picks, ANEW: self._start_anew},
-            self.versions,
-        )
-
-    def _ask(self, text, answers, *before):
-        self._asked = text, answers, *before
-        self.notice.ask(*self._asked)
-
-    def _ask_again(self, error):
-        _, answers, *before = self._asked
-        self.notice.ask(f"{error}. {UNSAVED}", answers, *before)
-
-    def _start_anew(self):
-        try:
-            aside = set_aside(self.path)
-        except DataError as error:
-            self._ask_again(error)
+        Raises
+        ------
+        DataError
+            If it cannot be saved; the section must then stay.
+        """
+        path, autosave = self.path, self._autosave
+        if path is None or autosave is None:
             return
-        self._begin(self.path)
+        try:
+            autosave.close()
+            self._aside = set_aside(path) if self._has_work else None
+        except DataError as error:
+            self._autosave = Autosave(path, report=partial(self._report, path))
+            self._save(path)
+            self.notice.alert(Text("This section stays, because its work cannot be saved: ", error.text))
+            raise
+
+    def _report(self, path: Path, error: DataError | None) -> None:
+        """Show that saving fails, or works again; called on the thread that saves."""
+        if error is None:
+            self.news.hint(f"Saved again in {path}.")
+        else:
+            self.news.alert(Text(error.text, ". ", STAYS_IN_MEMORY))
+
+    def _offer(self, path: Path, versions: list[Version]) -> None:
+        self.versions.options = [(_summary(version), version) for version in versions]
+        self.versions.value = versions[0]
+        answers: Answers = {OPEN: self._open, PICKS_ONLY: self._open_picks, START_ANEW: partial(self._start_anew, path)}
+        self._ask(f"{path} holds earlier work. {UNSAVED}", answers, self.versions)
+
+    def _ask(self, text: str, answers: Answers, *before: Widget) -> None:
+        self._question = text, answers, before
+        self.notice.ask(text, answers, *before)
+
+    def _ask_again(self, reason: str | None = None) -> None:
+        """Ask the last question again, after an answer that failed for a reason."""
+        text, answers, before = self._question
+        self.notice.ask(text if reason is None else f"{reason}. {UNSAVED}", answers, *before)
+
+    def _start_anew(self, path: Path) -> None:
+        try:
+            aside = set_aside(path)
+        except DataError as error:
+            self._ask_again(str(error))
+            return
+        self._begin(path)
         if aside:
             self.notice.hint(f"The earlier work stays in {aside}.")
 
-    def _open(self, read_outside=False):
-        session = self.versions.value.session
+    def _open(self, read_outside: bool = False) -> None:
+        version: Version = self.versions.value
+        session = version.session
         if session.sha256 == section_sha256(self.workspace.section):
-            self._take(session, self.workspace.section)
-        elif self._is_outside(session.source) and not read_outside:
+            self._take(version, session.source, self.workspace.section)
+        elif _is_outside(version.path.parent, session.source) and not read_outside:
             self.notice.ask(
                 f"Its section is read from {session.source.name}, which lies outside the session's folder.",
-                {"Read it": lambda: self._open(read_outside=True), "Back": lambda: self._ask(*self._asked)},
+                {READ: partial(self._open, read_outside=True), BACK: self._ask_again},
             )
         else:
             self.notice.hint(f"Opening the section from {session.source.kind} {session.source.name} ...")
-            take, fail = partial(self._take, session), lambda error: self._ask_again(in_words(error))
-            self._runner.submit(Job(lambda job: session.open_section(), take, fail))
+            take = partial(self._take, version, session.source)
+            self._runner.submit(
+                Job(lambda job: session.open_section(), take, lambda error: self._ask_again(in_words(error)))
+            )
 
-    def _is_outside(self, source):
-        if source.kind != FILE:
-            return False
-        try:
-            section_path(self.path.parent, source.name, allow_outside=False)
-        except DataError:
-            return True
-        return False
-
-    def _open_picks(self):
-        session, section = self.versions.value.session, self.workspace.section
+    def _open_picks(self) -> None:
+        version: Version = self.versions.value
+        section, session = self.workspace.section, version.session
         if not drawing_of(session).lies_on(section):
-            self._ask_again("These picks do not lie on the section that is shown; Open opens theirs")
+            self._ask_again(f"These picks do not lie on the section that is shown; {OPEN} opens theirs")
             return
-        self._take(session, section, of_other=session.sha256 != section_sha256(section))
+        is_theirs = session.sha256 == section_sha256(section)
+        self._take(version, session.source if is_theirs else self.workspace.source, section)
 
-    def _take(self, session, section, of_other=False):
-        """Show a session's work, and go on with it."""
-        source = self.workspace.source if of_other else session.source
-        path, version = self.path, self.versions.value.path
-        self.workspace.open(section, drawing_of(session), source=source, plan=session.plan)
-        self._begin(path)
-        self.notice.hint(f"Opened {version}.")
+    def _take(self, version: Version, source: SectionSource | None, section: Section) -> None:
+        """Show a version's work on a section, and continue with it."""
+        path, session = self.path, version.session
+        if path is not None:
+            self.workspace.open(section, drawing_of(session), source=source, plan=session.plan)
+            self._begin(path)
+            self.notice.hint(f"Opened {version.path}.")
 
 
-def _checked(path):
+def _is_outside(folder: Path, source: SectionSource) -> bool:
+    """Return whether a session in a folder reads its section from a file outside that folder."""
+    if source.kind != FILE:
+        return False
+    try:
+        section_path(folder, source.name, allow_outside=False)
+    except DataError:
+        return True
+    return False
+
+
+def _checked(path: str | PathLike) -> Path:
     path = user_path(path).absolute()
     if path.suffix.lower() != ".json":
         raise SettingError(f"{path} must end in .json, as a session's file does")
     if not path.parent.is_dir():
-        raise DataError(f"there is no folder {path.parent}; make it, or choose another")
+        raise DataError(f"the folder {path.parent} does not exist; make it, or choose another")
     return path
 
 
-def _words(version: Version) -> str:
-    """A version in a line: when it was saved, and what it holds."""
+def _summary(version: Version) -> str:
+    """Describe a version in a line: when it was saved, and what it contains."""
     held = ", a point held" * (version.session.plan.fixed is not None)
     return f"{version.saved:%d %b %Y, %H:%M:%S}: {counted(version.session)}{held} ({version.path.name})"
 
 
-def session_of(document: Document, sha256: str, path: Path) -> Session | SessionWithSection:
-    """Session of a document, to be saved under a path; the draft line is left out.
-
-    A section without a source is saved with it.
-    """
-    faults, horizons = (_saved(document.drawing, kind) for kind in (FAULT, HORIZON))
-    source = document.source or source_beside(path, sha256)
-    session = Session(source, sha256, faults, horizons, document.plan)
-    return session if document.source else SessionWithSection(session, document.section)
+def _to_save(document: Document, sha256: str, path: Path) -> Session | SessionWithSection:
+    """Session of a document under a path; a section without a source is saved beside it."""
+    if document.source is not None:
+        return session_of(document, document.source, sha256)
+    return SessionWithSection(session_of(document, source_beside(path, sha256), sha256), document.section)
 
 
-def _saved(drawing, kind):
+def session_of(document: Document, source: SectionSource, sha256: str) -> Session:
+    """Session of a document whose section has a known source and hash, without the draft line."""
+    faults, horizons = (_saved_picks(document.drawing, kind) for kind in (FAULT, HORIZON))
+    return Session(source, sha256, faults, horizons, document.plan)
+
+
+def _saved_picks(drawing: Drawing, kind: str) -> tuple[SavedPick, ...]:
     picks = (pick for pick in drawing.picks if pick.kind == kind)
     return tuple(SavedPick(pick.name, pick.pieces, pick.colour, pick.visible) for pick in picks)
 
 
 def drawing_of(session: Session) -> Drawing:
-    """The picks of a session, with their looks, even those that cannot be used."""
+    """Picks of a session with their styles, unusable ones included."""
     drawing = Drawing()
     for kind, picks in ((FAULT, session.faults), (HORIZON, session.horizons)):
         for pick in picks:

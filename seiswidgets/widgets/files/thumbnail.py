@@ -1,7 +1,8 @@
-"""A small picture of what a file holds, for who is about to open it."""
+"""A small picture of a section file, shown before it is opened."""
 
 from base64 import b64encode
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -12,8 +13,8 @@ from seiswidgets.io.opening import open_section
 from seiswidgets.io.options import Progress
 
 WIDEST, HIGHEST = 360, 160  # pixels
-CLIP = 99  # percentile of the amplitudes at which the greys end
-LARGEST = 32 * 2**20  # bytes of a file that must be read whole for its picture
+CLIP = 99  # percentile of the absolute amplitudes that is shown black or white
+LARGEST = 32 * 2**20  # bytes of a file that must be read completely
 FRAME = (
     f'<img alt="{{0}}" title="{{0}}" width="{WIDEST}" height="{HIGHEST}" style="max-width: 100%; display: block" '
     'src="data:image/png;base64,{1}">'
@@ -21,9 +22,9 @@ FRAME = (
 
 
 def thumbnail(info: SectionInfo, header_bytes: Mapping[str, int] | None, progress: Progress) -> str:
-    """HTML of a picture, in greys without axes; empty where reading takes long, or something is wrong with the file.
+    """HTML of a picture in greys, without axes; empty if reading takes long or fails.
 
-    Of SEG-Y some traces of all are read, or a volume's middle inline, which is also offered first to be opened.
+    A SEG-Y line is decimated; a volume is shown by its middle inline, which is also the one offered for opening.
 
     Raises
     ------
@@ -32,25 +33,25 @@ def thumbnail(info: SectionInfo, header_bytes: Mapping[str, int] | None, progres
     """
     if info.kind != "SEG-Y" and info.size > LARGEST:
         return ""
-    shown, some = _some_of(info, header_bytes)
+    caption, keywords = _selection(info, header_bytes)
     try:
-        section = open_section(info.path, dx=1, dz=1, z0=0, z_unit="m", progress=progress, **some)
+        section = open_section(info.path, dx=1, dz=1, z0=0, z_unit="m", progress=progress, **keywords)
     except Cancelled:
         raise
-    except SeiswidgetsError:  # it is told when the file is opened, with the choices that this takes
+    except SeiswidgetsError:  # shown when the user opens the file
         return ""
     size = np.minimum((WIDEST, HIGHEST), section.shape[::-1]).tolist()
     colouring = Colouring("greys", clip_limit(section, CLIP))
     picture = encode_png(colouring.levels(resampled(section.amplitude, tuple(size))), colouring.palette)
-    return FRAME.format(shown, b64encode(picture).decode())
+    return FRAME.format(caption, b64encode(picture).decode())
 
 
-def _some_of(info, header_bytes):
-    """What is shown of a file, in words, and the choices for that."""
+def _selection(info: SectionInfo, header_bytes: Mapping[str, int] | None) -> tuple[str, dict[str, Any]]:
+    """Part of a file that is shown: its caption, and the keywords of `open_section` that select it."""
     if info.kind != "SEG-Y":
-        return "All of it", {}
+        return "The whole line", {}
     if info.inlines:
         inline = info.middle("inline")
         return f"Inline {inline}", {"inline": inline, "header_bytes": header_bytes}
     traces = info.shape[1]
-    return "All of it", {"traces": range(0, traces, max(1, traces // WIDEST))}
+    return "The whole line", {"traces": range(0, traces, max(1, traces // WIDEST))}

@@ -1,32 +1,36 @@
-"""Files from the user's computer, piece by piece into a folder of their own."""
+"""Upload of files from the user's computer, piece by piece, into a temporary folder."""
 
+import re
+from io import FileIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import anywidget
+from ipywidgets import Widget
 from traitlets import Instance, Unicode
 
-from seiswidgets.widgets.files.file_names import file_name
 from seiswidgets.widgets.section_view.pointer_layer import joined
 
 MOST = 4 * 2**30  # bytes
-PART = ".part"  # what a file is called until it came whole: no other file can be called so
+PART = ".part"  # name of an incomplete file; safe_name never returns it
+LONGEST = 80  # characters of a file name
 
 
 class Upload(anywidget.AnyWidget):
-    """A button that sends a file of any size, and says how far it is; pressed again, it gives up.
+    """A button that uploads a file of any size and shows the progress; pressed again, it cancels the upload.
 
     Parameters
     ----------
     accept : str
-        Suffixes that the browser offers, between commas; all if left out.
+        Suffixes that the browser offers, separated by commas; all files if left out.
 
     Attributes
     ----------
     path : Path or None
-        Of the newest file that came whole. It lies in a folder of its own until `end`.
+        Path of the newest complete file, in a temporary folder that exists until `end`.
     error : str
-        Why a file was not taken.
+        Why an upload failed.
     """
 
     _esm = joined(Path(__file__).with_name("upload.js"))
@@ -36,19 +40,21 @@ class Upload(anywidget.AnyWidget):
     error = Unicode()
 
     def __init__(self, accept: str = ""):
-        self._folder = self._file = self._id = None
+        self._folder: TemporaryDirectory | None = None
+        self._file: FileIO | None = None
+        self._id, self._name, self._size = None, "", 0
         super().__init__(accept=accept)
         self.on_msg(self._take)
 
     def end(self) -> None:
-        """Give up what is under way, and delete what came."""
-        self._give_up()
+        """Cancel the upload in progress, and delete all uploads."""
+        self._discard()
         if self._folder is not None:
             self._folder.cleanup()
             self._folder = None
 
-    def _take(self, _widget, content, buffers):
-        """A message of the button: each is answered by where the next piece begins, None if there is none."""
+    def _take(self, _widget: Widget, content: dict[str, Any], buffers: list[memoryview]) -> None:
+        """Handle a message of the button; the answer is the offset of the next piece, None if there is none."""
         kind, sender = content["kind"], content["id"]
         try:
             if kind == "begin" and sender != self._id:
@@ -58,41 +64,48 @@ class Upload(anywidget.AnyWidget):
             elif kind == "stop" and sender == self._id:
                 self._stop(content["reason"])
         except OSError as error:
-            self._stop(f"it cannot be stored: {error.strerror or error}; make room")
+            self._stop(f"it cannot be stored: {error.strerror or error}; free some space")
         self.send({"id": sender, "next": self._file.tell() if self._file and sender == self._id else None})
 
-    def _begin(self, sender, name, size):
-        """Make room for a file."""
-        self._give_up()
+    def _begin(self, sender: Any, name: str, size: int) -> None:
+        self._discard()
         self._id, self._name, self._size, self.error = sender, name, size, ""
         if size > MOST:
-            self._stop(f"it has {size:,} bytes; there may be {MOST:,}: put it on the server's disk, and give its path")
+            self._stop(f"it has {size:,} bytes, more than {MOST:,}; copy it to the server's disk, and give its path")
             return
         if self._folder is None:
             self._folder = TemporaryDirectory(prefix="seiswidgets-")
-        self._file = (Path(self._folder.name) / PART).open("wb", buffering=0)  # or its end could fail when it is closed
-        self._end_if_whole()
+        path = Path(self._folder.name) / PART
+        self._file = path.open("wb", buffering=0)  # a buffer could fail to be written on closing
+        self._end_if_complete()
 
-    def _write(self, start, piece):
-        if self._file and start == self._file.tell():  # else it was sent again, though it had come
+    def _write(self, start: int, piece: memoryview) -> None:
+        if self._file and start == self._file.tell():  # else the piece was sent twice
             self._file.write(piece)
-            self._end_if_whole()
+            self._end_if_complete()
 
-    def _end_if_whole(self):
-        """Give a file that came whole its name, which is a stranger's, and keeps only what is harmless."""
-        if self._file.tell() >= self._size:
+    def _end_if_complete(self) -> None:
+        """Rename a complete file to a harmless form of its own name."""
+        if self._file and self._folder and self._file.tell() >= self._size:
             self._file.close()
-            path = Path(self._file.name).replace(Path(self._folder.name) / file_name(self._name, "file"))
-            self._file = self.path = None  # that it is another file is news, even where it has the same path
+            path = Path(self._folder.name)
+            path = (path / PART).replace(path / safe_name(self._name, "file"))
+            self._file = self.path = None  # so that a second file of the same path is a change
             self.path = path
 
-    def _stop(self, reason):
-        self._give_up()
+    def _stop(self, reason: str) -> None:
+        self._discard()
         self.error = f"{self._name!r} was not uploaded" + (f": {reason}" if reason else "")
 
-    def _give_up(self):
-        """Leave nothing of a file that is under way."""
-        if self._file:
+    def _discard(self) -> None:
+        """Delete an incomplete file."""
+        if self._file and self._folder:
             self._file.close()
-            Path(self._file.name).unlink(missing_ok=True)
+            (Path(self._folder.name) / PART).unlink(missing_ok=True)
             self._file = None
+
+
+def safe_name(name: str, default: str) -> str:
+    """Harmless file name: the last part of a path, without special characters; the default if nothing is left."""
+    last = re.split(r"[/\\]", name)[-1]
+    return re.sub(r"[^\w .()+-]", "_", last)[-LONGEST:].strip(" .") or default

@@ -3,7 +3,18 @@
 import math
 from typing import Any
 
-from ipywidgets import BoundedFloatText, Button, Checkbox, Dropdown, FloatLogSlider, FloatSlider, HBox, Layout, VBox, Widget
+from ipywidgets import (
+    BoundedFloatText,
+    Button,
+    Checkbox,
+    Dropdown,
+    FloatLogSlider,
+    FloatSlider,
+    HBox,
+    Layout,
+    VBox,
+    Widget,
+)
 from traitlets import Bunch, Enum, Float, HasTraits
 
 from seiswidgets.geology.restoration import Restoration
@@ -18,7 +29,10 @@ POLARITIES = [("normal: peaks are positive", 1), ("reversed", -1)]
 SOLVERS = {"gauss-newton": "Gauss-Newton (ours)", "fixed-point": "fixed point (the paper's)"}
 RANGE = 4.0  # largest ratio of the mesh spacing to the default one, and its inverse the smallest
 STYLE = {"description_width": "130px"}
-LOOK: dict[str, Any] = {"layout": {"width": "auto"}, "style": STYLE}  # dicts, since a Layout made here would be shared by all apps
+LOOK: dict[str, Any] = {
+    "layout": {"width": "auto"},
+    "style": STYLE,
+}  # dicts, since a Layout made here would be shared by all apps
 
 
 class DisplayControls(VBox):

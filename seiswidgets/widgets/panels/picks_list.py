@@ -29,6 +29,8 @@ class PicksList(VBox):
         Called after each edit.
     """
 
+    children: tuple[Widget, ...]
+
     def __init__(self, editor: PickEditor, changed: Callable[[], None]):
         self.editor, self._changed = editor, changed
         self._rows: dict[str, list[PickRow]] = {FAULT: [], HORIZON: []}

@@ -142,7 +142,7 @@ class StepList(WithParts, VBox):
         If a step is not a `Step`, or a keyword argument does not exist.
     """
 
-    steps: tuple = Tuple()
+    steps = Tuple()
     interpretation = Instance(Interpretation, ())
     z_unit = Unicode("m")
 
