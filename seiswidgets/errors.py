@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class Keyword:
     name: str
     value: object = None
 
-    def __str__(self):
+    def __str__(self) -> str:
         return f"{self.name}=" if self.value is None else f"{self.name}={self.value!r}"
 
 
@@ -48,7 +49,7 @@ class Text(str):
         return "".join(_labelled(part, labels) if isinstance(part, Keyword) else part for part in self.parts)
 
 
-def _labelled(keyword, labels):
+def _labelled(keyword: Keyword, labels: Mapping[str, str]) -> str:
     if keyword.name not in labels:
         return str(keyword)
     label = labels[keyword.name]
@@ -107,7 +108,7 @@ class FlippedError(SeiswidgetsError):
         Number of triangles turned over.
     """
 
-    def __init__(self, *parts: str | Keyword, count: int = 0, **fields):
+    def __init__(self, *parts: str | Keyword, count: int = 0, **fields: Any):
         super().__init__(*parts, **fields)
         self.count = count
 

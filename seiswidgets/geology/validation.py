@@ -1,8 +1,5 @@
 """What users ask a restoration for, checked at the door: numbers, points and picks."""
 
-import difflib
-from collections.abc import Iterable
-
 import numpy as np
 
 from seiswidgets.errors import PickError, SettingError
@@ -102,13 +99,3 @@ def checked_kind(value, kind: type, name: str):
 
 def _a(kind):
     return f"{'an' if kind.__name__[0] in 'AEIOUaeiou' else 'a'} {kind.__name__}"
-
-
-def check_keywords(where: str, given: Iterable[str], known: Iterable[str]) -> None:
-    """Refuse keyword arguments that do not exist, with a SettingError that suggests the right one."""
-    known = sorted(known)
-    for name in given:
-        if name not in known:
-            close = difflib.get_close_matches(name, known, n=1)
-            hint = f"; did you mean {close[0]}=?" if close else f"; it takes {', '.join(known)}"
-            raise SettingError(f"{where} has no keyword {name}={hint}", kind="keyword")

@@ -40,8 +40,6 @@ from seiswidgets.widgets.workspace import Workspace
 
 PATIENCE = 10.0  # seconds that a closing app waits for its threads to end
 SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
-PARAMETERS = ("interpretation", "fixed", "height", "session", "source")
-SETTINGS = ("weights", "steps", "live", "restoration", "layout")
 
 
 class RestorationApp(WithParts, VBox):
@@ -85,7 +83,9 @@ class RestorationApp(WithParts, VBox):
     Raises
     ------
     SettingError
-        If a setting is out of its range or does not exist, or a restoration of another section is set.
+        If a setting is out of its range, or a restoration of another section is set.
+    TypeError
+        If a setting does not exist.
     DataError
         If the session's folder does not exist, or edits of an earlier section cannot be saved.
     """
@@ -108,7 +108,7 @@ class RestorationApp(WithParts, VBox):
         source: SectionSource | None = None,
         **settings: Any,
     ):
-        validation.check_keywords("RestorationApp", settings, (*PARAMETERS, *SETTINGS))
+        self.check_settings(settings)
         if source is not None:
             validation.checked_kind(source, SectionSource, "source")
         plan = Plan(fixed=fixed, **{name: settings.pop(name) for name in ("steps", "weights") if name in settings})

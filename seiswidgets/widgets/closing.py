@@ -7,7 +7,7 @@ from typing import Any
 
 from ipywidgets import Widget
 
-from seiswidgets.geology.validation import check_keywords
+from seiswidgets.signatures import check_keywords
 from seiswidgets.widgets.ipycanvas_compat import CANVAS_MANAGER
 
 MOST_NESTED = 2  # containers within containers that are searched for widgets
@@ -28,7 +28,7 @@ class WithParts(Widget):
 
     @classmethod
     def check_settings(cls, settings: Mapping[str, Any]) -> None:
-        """Refuse keyword arguments that the class does not take, with a SettingError that suggests the right one."""
+        """Refuse keyword arguments that the class does not take, with a TypeError that suggests the right one."""
         names = {*cls.class_trait_names(), *signature(cls).parameters} - NOT_SETTINGS
         check_keywords(cls.__name__, settings, (name for name in names if not name.startswith("_")))
 

@@ -71,7 +71,7 @@ class Gallery(WithParts, VBox):
 
     Raises
     ------
-    SettingError
+    TypeError
         If a setting does not exist.
     """
 

@@ -126,6 +126,8 @@ class Workspace(HasTraits):
 
     def as_drawn(self, interpretation: Interpretation) -> Interpretation:
         """Interpretation that results from loading this one; the present one if they are equal."""
+        if interpretation is self.interpretation:
+            return interpretation  # not the same picks in another order, which would be an edit
         return self.drawing.with_interpretation(interpretation).interpretation
 
     def picks_fit(self, section: Section) -> bool:

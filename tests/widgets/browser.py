@@ -65,6 +65,7 @@ class Server:
         command += [f"--port={self.port}", "--ServerApp.port_retries=0", f"--IdentityProvider.token={self.token}"]
         command += [f"--ServerApp.root_dir={self.folder}", f"--LabApp.user_settings_dir={settings}"]
         command += [f"--LabApp.workspaces_dir={folder / 'workspaces'}", "--LabApp.expose_app_in_browser=True"]
+        command += ["--KernelManager.shutdown_wait_time=0.2"]  # seconds; a kernel at rest has nothing left to do
         self.log = folder / "server.log"
         with self.log.open("w") as log:
             self.process = subprocess.Popen(command, env=environment, stdout=log, stderr=log, cwd=self.folder)

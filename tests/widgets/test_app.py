@@ -297,5 +297,5 @@ def test_the_app_of_a_time_section_and_settings_from_the_start(case):
     ids=["RestorationApp", "Gallery", "StepList", "WeightSliders"],
 )
 def test_a_misspelt_keyword_is_refused_with_a_suggestion(make, misspelt, hint):
-    with pytest.raises(sw.SettingError, match=f"no keyword {misspelt}=; did you mean {hint}="):
+    with pytest.raises(TypeError, match=f"no keyword {misspelt}=; did you mean {hint}="):
         make(**{misspelt: None})

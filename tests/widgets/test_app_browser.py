@@ -58,7 +58,9 @@ def steer(screen, target):
     """Bring the keyboard's cursor to a point, to the nearest trace and sample."""
     cursor = np.array(screen.ask("editor.state.cursor"))
     cell = np.array(screen.ask("[case.section.dx, case.section.dz]"))
-    strides = screen.ask("np.maximum(1, np.ceil(8 * editor.viewport.pixel / [case.section.dx, case.section.dz])).tolist()")
+    strides = screen.ask(
+        "np.maximum(1, np.ceil(8 * panes[0].view.pixel / [case.section.dx, case.section.dz])).tolist()"
+    )
     for axis, names in enumerate((("Left", "Right"), ("Up", "Down"))):
         cells = round((target[axis] - cursor[axis]) / cell[axis])
         key, left = f"Arrow{names[cells > 0]}", abs(cells)
@@ -114,7 +116,7 @@ def undone(screen, before):
 
 def test_vertices_are_added_dragged_inserted_removed_and_nudged(open_app):
     screen = open_app(FEW)
-    before, pixel = screen.ask(PICKS), screen.points("editor.viewport.pixel")
+    before, pixel = screen.ask(PICKS), screen.points("panes[0].view.pixel")
     (_, (fault,)), (_, (line, _)) = before
     line = np.array(line)
 
@@ -175,7 +177,7 @@ def test_vertices_are_added_dragged_inserted_removed_and_nudged(open_app):
 
 def test_cut_offs_snapping_following_and_holding(open_app):
     screen = open_app(FEW)
-    before, pixel = screen.ask(PICKS), screen.points("editor.viewport.pixel").max()
+    before, pixel = screen.ask(PICKS), screen.points("panes[0].view.pixel").max()
     fault = screen.points("editor.drawing.picks[0].pieces[0]")
     marks = screen.points("[mark.inside for mark in editor.cutoffs()]")
     assert len(marks) == 2
@@ -234,9 +236,9 @@ def test_zoom_and_pan_while_a_line_is_under_way(open_app):
 
     def moved(by, *arguments):
         """Do something that must change the view, and nothing else."""
-        window = screen.ask("editor.viewport.window")
+        window = screen.ask("panes[0].view.window")
         by(*arguments)
-        screen.until(f"editor.viewport.window != tuple({window})")
+        screen.until(f"panes[0].view.window != tuple({window})")
         screen.becomes(DRAFT, line)
 
     mouse, (x, y) = screen.page.mouse, screen.pixels([(900, 400)])[0]
@@ -259,11 +261,11 @@ def test_zoom_and_pan_while_a_line_is_under_way(open_app):
     mouse.move(x, y)
     box = screen.plots.first.bounding_box()
     screen.page.wait_for_function(BAND, arg=[*(start - [box["x"], box["y"]]), x - box["x"], y - box["y"]])
-    point = screen.points(f"editor.viewport.to_section([{x - box['x']}, {y - box['y']}])")
+    point = screen.points(f"panes[0].view.to_section([{x - box['x']}, {y - box['y']}])")
     mouse.dblclick(x, y)
     screen.nears("app.interpretation.horizons[-1].pieces[0]", [*line, point], 0.01)
     screen.press("0")
-    screen.until("editor.viewport.is_fitted")
+    screen.until("panes[0].view.is_fitted")
 
 
 BAND = """(ends) => {
@@ -284,4 +286,4 @@ def test_what_is_drawn_while_a_cell_runs_comes_in_order(open_app):
             screen.page.mouse.click(x, y)
         screen.page.mouse.dblclick(*last)
     screen.becomes("len(app.interpretation.faults)", 2)
-    screen.nears("app.interpretation.faults[1].points", fault, screen.points("editor.viewport.pixel").max())
+    screen.nears("app.interpretation.faults[1].points", fault, screen.points("panes[0].view.pixel").max())

@@ -125,7 +125,7 @@ def test_a_reloaded_page_and_a_second_view_show_the_same(open_app):
 def test_cancel_leaves_all_as_it_was(open_app):
     screen = open_app(RESTORED, "app.wait(30)\napp.live = False\n")
     screen.until("len(app.restoration.stages) == 2")
-    screen.ask("app.solving.set_trait('spacing', app.solving.slider.value / 4)")
+    screen.ask("app.solving.set_trait('spacing', app.restoration.domain.spacing / 4)")
     before = screen.pictures()
     screen.ask("globals().update(whole=app.restoration)")
     screen.button("Restore").click()

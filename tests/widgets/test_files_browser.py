@@ -15,7 +15,7 @@ from tests.widgets.byhand import is_painted
 from tests.widgets.files import line
 
 APP = """
-import os, seiswidgets as sw
+import os, time, seiswidgets as sw
 case = sw.synthetic.faulted_fold()
 app = sw.RestorationApp(case.section, session="{0}.json", source=sw.SectionSource("synthetic", "faulted_fold"),
     live=False, height=300)
@@ -224,8 +224,8 @@ def open_by_path(app, path):
     other.check()
     app.page.get_by_label("x", exact=True).fill("73")
     app.page.keyboard.press("Tab")
-    app.page.get_by_text("has no positions of its traces: bytes 73 and 185").wait_for()
+    app.page.get_by_text("has no trace positions: bytes 73 and 185").wait_for()
     shoot(app, "file-panel")
     other.uncheck()
-    app.page.get_by_text("has no positions of its traces").wait_for(state="hidden")
+    app.page.get_by_text("has no trace positions").wait_for(state="hidden")
     app.page.get_by_role("button", name="Open section").click()

@@ -169,6 +169,15 @@ def test_picks_to_start_with_cannot_be_undone(section):
     assert picker.buttons["undo"].disabled
 
 
+def test_a_fault_drawn_after_a_horizon_is_one_edit(drawn):
+    drawn.mode = "fault"
+    draw(drawn.pane, *(np.array(FAULT) + [200, 0]))
+    assert [pick.name for pick in drawn.drawing.picks] == ["F1", "H1", "F2"]
+    keys(drawn.pane, "z", modifiers=["ctrl"])
+    assert [pick.name for pick in drawn.drawing.picks] == ["F1", "H1"]
+    np.testing.assert_allclose(drawn.drawing.draft.points, np.array(FAULT) + [200, 0])
+
+
 def test_dots_of_a_dense_line_keep_apart_and_the_chosen_one_is_among_them(section):
     dense = [(100.0 + 2 * number, 300.0) for number in range(100)]
     picker = Picker(section, interpretation=sw.Interpretation(horizons=[sw.Horizon(dense, name="H1")]), mode="horizon")

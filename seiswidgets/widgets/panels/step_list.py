@@ -139,7 +139,9 @@ class StepList(WithParts, VBox):
     Raises
     ------
     SettingError
-        If a step is not a `Step`, or a keyword argument does not exist.
+        If a step is not a `Step`.
+    TypeError
+        If a keyword argument does not exist.
     """
 
     steps = Tuple()

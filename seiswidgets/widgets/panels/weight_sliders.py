@@ -62,7 +62,7 @@ class WeightSliders(WithParts, VBox):
 
     Raises
     ------
-    SettingError
+    TypeError
         If a keyword argument does not exist.
     """
 
