@@ -177,14 +177,14 @@ def test_mesh_shows_its_edges(restored, when):
     np.testing.assert_allclose(np.nanmax(drawn, axis=0), vertices.max(axis=0), atol=1e-9)
 
 
-def test_compression_is_red_and_dilatation_blue(uneven):
+def test_compression_is_red_and_expansion_blue(uneven):
     assert uneven.stages[0].area_ratio.tolist() == [2.0, 0.5]
     figure = sw.plot.deformation(uneven)
     figure.draw_without_rendering()
     (triangles,) = [child for child in figure.axes[0].collections if isinstance(child, PolyCollection)]
-    compressed, dilated = triangles.get_facecolors()
+    compressed, expanded = triangles.get_facecolors()
     assert compressed[0] > 2 * compressed[2]
-    assert dilated[2] > 2 * dilated[0]
+    assert expanded[2] > 2 * expanded[0]
 
 
 def test_no_deformation_is_white(uneven):

@@ -8,7 +8,7 @@ from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.errors import SettingError
 
 LEAST_SPAN = 1.01  # of a histogram in which no area has changed
-AREA_RATIO_COLOURS = "RdBu_r"  # red is compression, blue dilatation; distinguishable with colour blindness
+AREA_RATIO_COLOURS = "RdBu_r"  # red is compression, blue expansion; distinguishable with colour blindness
 SPANS = (1.02, 1.05, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0)  # area ratios at which colours may end
 
 

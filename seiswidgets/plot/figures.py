@@ -178,7 +178,7 @@ def _draw_histogram(ax: Axes, bins: np.ndarray, shares: np.ndarray, colours: Sca
     ax.spines[["top", "right"]].set_visible(False)
     ax.xaxis.set_major_locator(NullLocator())
     ax.xaxis.set_minor_locator(NullLocator())
-    for x, text, shade, side in ((0.01, "dilatation", 0.1, "left"), (0.99, "compression", 0.9, "right")):
+    for x, text, shade, side in ((0.01, "expansion", 0.1, "left"), (0.99, "compression", 0.9, "right")):
         ax.text(x, 0.97, text, color=colours.cmap(shade), ha=side, va="top", fontsize=8.5, transform=ax.transAxes)
 
 

@@ -1,6 +1,7 @@
-"""Bindings between values that must be equal: a trait and a field of the workspace, or a trait and a control."""
+"""Bindings that keep values equal: a trait and a field of the workspace, or a trait and a control."""
 
 from collections.abc import Callable
+from typing import Any
 
 from ipywidgets import Widget
 from traitlets import HasTraits
@@ -9,10 +10,16 @@ from seiswidgets.interaction.document import Document
 from seiswidgets.widgets.workspace import Workspace
 
 
-def bind(owner: HasTraits, name: str, workspace: Workspace, read: Callable, write: Callable) -> None:
+def bind(
+    owner: HasTraits,
+    name: str,
+    workspace: Workspace,
+    read: Callable[[Document], Any],
+    write: Callable[[Any], object],
+) -> None:
     """Keep a trait equal to a field of the workspace's document.
 
-    No flag guards against echoes: an edit that changes nothing is no edit.
+    It needs no guard against echoes, since an edit that changes nothing is not recorded.
 
     Parameters
     ----------
@@ -24,16 +31,16 @@ def bind(owner: HasTraits, name: str, workspace: Workspace, read: Callable, writ
         Sends an edit to the workspace.
     """
 
-    def follow(change: Document):
+    def follow(change: object) -> None:
         setattr(owner, name, read(workspace.document))
 
-    follow(workspace.document)
+    follow(None)
     workspace.observe(follow, "document")
     owner.observe(lambda change: write(change.new), name)
 
 
 def bind_control(owner: HasTraits, name: str, control: Widget) -> None:
-    """Keep a control's value equal to a trait, which prevails at first."""
+    """Keep a control's value equal to a trait; at first the control takes the value of the trait."""
     control.value = getattr(owner, name)
     control.observe(lambda change: setattr(owner, name, change.new), "value")
     owner.observe(lambda change: setattr(control, "value", change.new), name)

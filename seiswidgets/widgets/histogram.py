@@ -1,10 +1,13 @@
-"""How the area ratio is distributed over the rock, as bars that can be brushed."""
+"""The distribution of the area ratio over the rock, as bars that can be brushed."""
+
+from typing import Any
 
 import anywidget
 import numpy as np
 from matplotlib.colors import to_hex
 from matplotlib.ticker import MaxNLocator
-from traitlets import Dict, Float, List, Unicode, observe, validate
+from numpy.typing import ArrayLike
+from traitlets import Bunch, Dict, Float, List, Unicode, observe, validate
 
 from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
 from seiswidgets.errors import SettingError
@@ -13,39 +16,44 @@ from seiswidgets.widgets.assets import asset
 from seiswidgets.widgets.closing import WithParts
 
 EMPTY = "Nothing restored yet: there is no deformation to show."
-ROUND = (1, 10, 0.1, 100, 0.01, 2, 0.5, 5, 0.2, 1.25, 0.8, 1.1, 0.9, 1.05, 0.95, 1.02, 0.98, 1.01, 0.99, 1.005, 0.995)
-APART = 0.09  # between two ticks at least, as a share of the axis
+ROUND_RATIOS = (  # the roundest first
+    *(1, 10, 0.1, 100, 0.01, 2, 0.5, 5, 0.2, 1.25, 0.8),
+    *(1.1, 0.9, 1.05, 0.95, 1.02, 0.98, 1.01, 0.99, 1.005, 0.995),
+)
+TICK_DISTANCE = 0.09  # least distance between two ticks, as a share of the axis
 
 
 class DeformationHistogram(WithParts, anywidget.AnyWidget):
     """The distribution of the area ratio, initial over final, in the colours of the deformation map.
 
-    A drag brushes a range of whole bars, a click one bar, Shift+click up to another; a double click clears. With the
-    keyboard: the left and right arrow, Home and End brush one bar, together with Shift up to another; Escape clears.
+    A drag brushes a range of bars, a click one bar, Shift+click extends the range; a double click clears it. With the
+    keyboard: the left and right arrow, Home and End brush one bar, with Shift they extend the range; Escape clears it.
 
     Parameters
     ----------
     ratio, areas : array, shape (m,), optional
         As for `show`; empty if left out.
     bins : int
-        An odd number of them has one about 1.
+        Number of bars; an odd one centres a bar on 1.
+    **settings
+        Initial values of the attributes.
 
     Attributes
     ----------
     brush : list
-        ``[low, high]``, the area ratios that are brushed, or empty; may be set. At the ends of the axis it holds all
-        that lies beyond.
+        Area ratios ``[low, high]`` that are brushed, or empty; may be set. At an end of the axis, the brush includes
+        everything beyond.
     mark : float or None
-        An area ratio whose bar is marked.
+        Area ratio whose bar is marked.
     summary, brushed : str
-        What is printed above the bars: median and percentiles, by area, and the brush with its share of the area.
+        Text above the bars: median and percentiles by area, and the brush with its share of the area.
     bars : dict
-        What is drawn: "edges", "shares", "colours", the ticks "x" and "y" with their labels, and "decimals"; or empty.
+        The drawing: "edges", "shares", "colours", the ticks "x" and "y" with their labels, and "decimals"; or empty.
 
     Raises
     ------
     SettingError
-        If there is no bin, or the brush is not a range of ratios above 0; and as for `show`.
+        If there is no bin, the brush is not a range of ratios above 0, or a keyword does not exist; and as for `show`.
     """
 
     _esm = asset("histogram.js")
@@ -54,45 +62,48 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
     bars = Dict().tag(sync=True)
     summary = Unicode(EMPTY).tag(sync=True)
     brushed = Unicode().tag(sync=True)
-    brush = List().tag(sync=True)
+    brush: List[float] = List().tag(sync=True)
     mark = Float(None, allow_none=True).tag(sync=True)
 
-    def __init__(self, ratio=None, areas=None, *, bins: int = 41, **traits):
+    def __init__(
+        self, ratio: ArrayLike | None = None, areas: ArrayLike | None = None, *, bins: int = 41, **settings: Any
+    ):
+        self.check_settings(settings)
         if bins < 1:
             raise SettingError(f"a histogram needs at least one bin, but bins is {bins!r}")
         self._bins = bins
         self._ratio = self._areas = np.empty(0)
-        super().__init__(**traits)
+        super().__init__(**settings)
         self.show([] if ratio is None else ratio, areas)
 
     @property
     def colouring(self) -> RatioColouring:
-        """The bars' colours, for a map beside them."""
+        """Colours of the bars, for a map beside them."""
         return RatioColouring.of(self._ratio, self._areas)
 
-    def show(self, ratio, areas=None) -> None:
-        """Show other numbers; the brush stays.
+    def show(self, ratio: ArrayLike, areas: ArrayLike | None = None) -> None:
+        """Show other area ratios; the brush stays.
 
         Parameters
         ----------
         ratio : array, shape (m,)
-            Area ratio of each triangle; NaNs are left out. If nothing is left, the histogram is empty.
+            Area ratio of each triangle; NaN is left out. If nothing remains, the histogram is empty.
         areas : array, shape (m,), optional
             Their initial areas; equal if left out.
 
         Raises
         ------
         SettingError
-            If the shapes differ, a ratio or an area cannot be one, or all areas are 0.
+            If the shapes differ, a ratio is not above 0, an area is below 0, or all areas are 0.
         """
         self._ratio, self._areas = _checked(ratio, areas)
         with self.hold_sync():
             self.bars = _bars(self._ratio, self._areas, self._bins) if len(self._ratio) else {}
             self.summary = _summary(self._ratio, self._areas) if len(self._ratio) else EMPTY
-            self._say_brush()
+            self._show_brush()
 
     @validate("brush")
-    def _valid_brush(self, proposal):
+    def _valid_brush(self, proposal: Bunch) -> list[float]:
         brush = proposal.value
         try:
             low, high = map(float, brush) if brush else (1.0, 2.0)
@@ -103,10 +114,10 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
         return [low, high] if brush else []
 
     @observe("brush")
-    def _say_brush(self, change=None):
+    def _show_brush(self, change: Bunch | None = None) -> None:
         self.brushed = self._brush_text() if self.brush and self.bars else ""
 
-    def _brush_text(self):
+    def _brush_text(self) -> str:
         low, high = self.brush
         first, last = self.bars["edges"][0], self.bars["edges"][-1]
         inside = ((self._ratio >= low) | (low <= first)) & ((self._ratio <= high) | (high >= last))
@@ -115,47 +126,48 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
         return f"{low:.{decimals}f} to {high:.{decimals}f}: {share:.3g}% of the area"
 
 
-def _checked(ratio, areas):
-    """Area ratios and areas as arrays, without those that are not known."""
-    ratio = np.asarray(ratio, float)
-    areas = np.ones(ratio.shape) if areas is None else np.asarray(areas, float)
-    if ratio.ndim != 1 or areas.shape != ratio.shape:
+def _checked(ratio: ArrayLike, areas: ArrayLike | None) -> tuple[np.ndarray, np.ndarray]:
+    """Validate area ratios and areas, and leave out those that are NaN."""
+    ratios = np.asarray(ratio, float)
+    weights = np.ones(ratios.shape) if areas is None else np.asarray(areas, float)
+    if ratios.ndim != 1 or weights.shape != ratios.shape:
         raise SettingError(
-            f"each triangle has one area ratio and one area, but these have shapes {ratio.shape} and {areas.shape}"
+            f"each triangle has one area ratio and one area, but these have shapes {ratios.shape} and {weights.shape}"
         )
-    known = ~np.isnan(ratio)
-    ratio, areas = ratio[known], areas[known]
-    if not ((ratio > 0) & (ratio < np.inf)).all():
+    known = ~np.isnan(ratios)
+    ratios, weights = ratios[known], weights[known]
+    if not ((ratios > 0) & (ratios < np.inf)).all():
         raise SettingError("area ratios must be finite and above 0; a triangle has collapsed or is turned over")
-    if not ((areas >= 0) & (areas < np.inf)).all() or (len(areas) and not areas.any()):
+    if not ((weights >= 0) & (weights < np.inf)).all() or (len(weights) and not weights.any()):
         raise SettingError("areas must be finite, 0 or more, and not all of them 0")
-    return ratio, areas
+    return ratios, weights
 
 
-def _bars(ratio, areas, bins):
+def _bars(ratio: np.ndarray, areas: np.ndarray, bins: int) -> dict[str, Any]:
     colouring = RatioColouring.of(ratio, areas)
     edges, shares = area_ratio_histogram(ratio, areas, bins, colouring.span)
     colours = colouring.palette()[colouring.levels(np.sqrt(edges[:-1] * edges[1:])), :3] / 255
-    percents = MaxNLocator(3).tick_values(0, 100 * shares.max())
+    percents = [float(percent) for percent in MaxNLocator(3).tick_values(0, 100 * shares.max())]
     return {
         "edges": edges.tolist(),
         "shares": shares.tolist(),
         "colours": [to_hex(colour) for colour in colours],
         "x": [[tick, f"{tick:g}"] for tick in ratio_ticks(edges[-1])],
-        "y": [[percent / 100, f"{percent:g}"] for percent in percents.tolist()],
-        "decimals": max(2, -int(np.floor(np.log10(edges[1] / edges[0] - 1)))),  # tell one edge from the next
+        "y": [[percent / 100, f"{percent:g}"] for percent in percents],
+        "decimals": max(2, -int(np.floor(np.log10(edges[1] / edges[0] - 1)))),  # enough to distinguish two edges
     }
 
 
-def _summary(ratio, areas):
+def _summary(ratio: np.ndarray, areas: np.ndarray) -> str:
     low, median, high = weighted_percentiles(ratio, areas, (1, 50, 99))
     return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f}"
 
 
 def ratio_ticks(span: float) -> list[float]:
-    """Round area ratios from 1 / span to span, the roundest first, as many as there is room for."""
-    ticks = []
-    for tick in ROUND:
-        if 1 / span <= tick <= span and all(abs(np.log(tick / other)) >= 2 * APART * np.log(span) for other in ticks):
+    """Choose round area ratios from 1 / span to span; the roundest come first, until the axis is full."""
+    ticks: list[float] = []
+    distance = 2 * TICK_DISTANCE * np.log(span)
+    for tick in ROUND_RATIOS:
+        if 1 / span <= tick <= span and all(abs(np.log(tick / other)) >= distance for other in ticks):
             ticks.append(tick)
     return sorted(ticks)

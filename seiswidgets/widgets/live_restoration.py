@@ -49,7 +49,7 @@ class LiveRestoration:
         self._picker, self._panes, self._status = picker, panes, status
         self._timeline, self._histogram = timeline, histogram
         self._requested = False  # whether the user pressed Restore: only then is an error shown as an alert
-        self._restorer = Restorer(self._draw, status.tell, self._fail)
+        self._restorer = Restorer(self._draw, status.show_progress, self._fail)
         self._player = TimelinePlayer(panes, picker.redraw)
         workspace.observe(self._take_document, "document")
         workspace.observe(self._take_settled, "settled")

@@ -1,16 +1,19 @@
-"""Draw faults and horizons on a section: a pane, its tools, and the list of picks."""
+"""A pane to draw faults and horizons in, with its tools and the list of picks."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from typing import Any
 
 from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
-from traitlets import Any, Bool, Enum, Float, Instance, observe, validate
+from traitlets import Any as AnyTrait
+from traitlets import Bool, Bunch, Enum, Float, Instance, observe, validate
 
+from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.geology import validation
 from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.picks import HORIZON, Interpretation
+from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.document import Document
-from seiswidgets.interaction.drawing import Drawing
+from seiswidgets.interaction.document import Document, Entry
+from seiswidgets.interaction.drawing import Drawing, Point
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES
 from seiswidgets.interaction.gestures import Gesture
@@ -33,65 +36,82 @@ KEYS = (
     *ARROWS,
     *(f"Ctrl+{key}" for key in (*ARROWS, "z", "Z", "y", "Y")),
 )
-MODE_NAMES = {
-    LOOK: ("Look", "look, zoom and pan; select a line by clicking on it (L)"),
-    "fault": ("Fault", "click along a fault; double click or Enter finishes it (F)"),
-    HORIZON: ("Horizon", "click along a horizon; double click or Enter finishes a piece of it (H)"),
-    BLOCK: ("Hold", "click into the block that must stay where it is; again to let it go (B)"),
+MODE_LABELS = {
+    LOOK: ("Look", "Zoom and pan; click a line to select it (L)"),
+    FAULT: ("Fault", "Click along a fault; double click or press Enter to finish it (F)"),
+    HORIZON: ("Horizon", "Click along a horizon; double click or press Enter to finish a piece of it (H)"),
+    BLOCK: ("Hold", "Click in the block that must not move; click the pin to release it (B)"),
+}
+ACTIONS = {  # icon, action, keys
+    "undo": ("undo", "Undo", "Ctrl+Z"),
+    "redo": ("repeat", "Redo", "Ctrl+Y"),
+    "finish": ("check", "Finish the line", "Enter"),
+    "new": ("plus", "Draw the next line as a new horizon", "Escape"),
 }
 
 
 class Picker(WithParts, VBox):
     """A section on which faults and horizons are drawn; every edit can be undone.
 
-    The modes are look, fault, horizon, and hold. In fault and horizon mode a click adds a vertex, a double click or
-    Enter finishes the line, Escape drops it; a vertex or a cut-off is dragged, and removed by Ctrl-click or Delete.
-    Everything can be done by keyboard: L, F, H, B choose the mode, Enter shows a cursor which the arrows move, Space
-    puts a vertex there. The module `seiswidgets.interaction.editor` has the table of all gestures.
+    In fault and horizon mode a click adds a vertex, a double click or Enter finishes the line, and Escape drops it;
+    vertices and cut-offs can be dragged, and a vertex is removed by Ctrl-click or Delete. All of this works with the
+    keyboard too: L, F, H and B choose the mode, Enter shows a cursor, the arrows move it, and Space puts a vertex at
+    it. The module `seiswidgets.interaction.editor` has the table of all gestures.
 
     Parameters
     ----------
     section : Section or SectionPane
         The section to draw on, or the pane that shows it.
     workspace : Workspace, optional
-        The owner of what is drawn; one of its own if left out.
+        The owner of the picks; a new one if left out.
     **settings
         Initial values of the attributes.
 
     Attributes
     ----------
     interpretation : Interpretation
-        Picks that are finished and valid; may be set, which can be undone.
+        Picks that are finished and valid; may be set, as an edit that can be undone.
     fixed : (x, z) or None
-        A point in the block that is held.
+        A point in the block that is held; may be set.
     mode : {"look", "fault", "horizon", "block"}
     snap : {"off", "peak", "trough", "zero-up", "zero-down"}
-        The event that a horizon's vertices snap to.
+        The event that vertices of horizons snap to.
     window : float
         Number of samples that they may move.
     follow : bool
-        Whether the line between two clicks follows the event.
+        True if the line between two clicks follows the event.
     dragging : bool
-        Whether something is being dragged.
+        True during a drag.
+    pane : SectionPane
+    toolbar : Box
+    list : PicksList
+    editor : PickEditor
+
+    Raises
+    ------
+    SettingError
+        If a keyword does not exist.
     """
 
     interpretation = Instance(Interpretation)
-    fixed = Any(None, allow_none=True)
+    fixed = AnyTrait(None, allow_none=True)
     mode = Enum(MODES, LOOK)
     snap = Enum((OFF, *EVENTS), OFF)
     window = Float(5.0)
     follow = Bool(False)
     dragging = Bool(False)
 
-    def __init__(self, section: Section | SectionPane, *, workspace: Workspace | None = None, **settings):
+    def __init__(self, section: Section | SectionPane, *, workspace: Workspace | None = None, **settings: Any):
+        self.check_settings(settings)
         self.pane = section if isinstance(section, SectionPane) else SectionPane(section)
         self.workspace = workspace or Workspace(self.pane.section)
         self.editor = PickEditor(self.workspace.history, self.pane.view)
         self._others: list[SectionPane] = []
-        self._drawn: dict[SectionPane, tuple] = {}
-        self._complaints: dict[str, tuple[str, str]] = {}
+        self._drawn: dict[SectionPane, tuple[object, ...]] = {}
+        self._messages: dict[str, tuple[str, str]] = {}
         self.list = PicksList(self.editor, self.refresh)
-        self.toolbar = self._made_toolbar()
+        self.buttons = {name: self._button(name) for name in ACTIONS}
+        self.toolbar = self._make_toolbar()
         super().__init__([KeyGuard(), self.toolbar, self.pane, self.list])
         keep_order(self)
         self._bind()
@@ -104,11 +124,11 @@ class Picker(WithParts, VBox):
 
     @property
     def drawing(self) -> Drawing:
-        """All picks with their looks, even those that cannot be used, and the draft line."""
+        """All picks with their looks, invalid ones included, and the draft line."""
         return self.workspace.drawing
 
     def attach(self, pane: SectionPane) -> None:
-        """Draw in a further pane too, by its own projection."""
+        """Draw in another pane too, by its own projection."""
         if pane is not self.pane:
             self._others.append(pane)
             self.borrowed += (pane,)
@@ -117,18 +137,23 @@ class Picker(WithParts, VBox):
         self.refresh()
 
     def complain(self, error: Exception, severity: str = "problem") -> None:
-        """Show an error beside the pick that it is about, instead of earlier findings and complaints."""
-        pick = getattr(error, "pick", None)
-        self._complain_about({pick: (severity, str(error))} if pick else {})
+        """Show an error beside the pick that it concerns, instead of earlier messages."""
+        pick = error.pick if isinstance(error, SeiswidgetsError) else None
+        self._show_messages({pick: (severity, str(error))} if pick else {})
 
     def show_findings(self, findings: Iterable[Finding]) -> None:
-        """Show beside each pick the worst finding about it, instead of earlier ones and complaints."""
-        about = [finding for finding in worst_first(findings) if finding.pick is not None]
-        self._complain_about({finding.pick: (finding.severity, finding.text) for finding in reversed(about)})
+        """Show beside each pick the worst finding about it, instead of earlier messages."""
+        self._show_messages(
+            {
+                finding.pick: (finding.severity, finding.text)
+                for finding in reversed(worst_first(findings))
+                if finding.pick is not None
+            }
+        )
 
-    def _complain_about(self, complaints):
-        self._complaints = complaints
-        self.list.update(self._wrong())
+    def _show_messages(self, messages: dict[str, tuple[str, str]]) -> None:
+        self._messages = messages
+        self.list.update(self._all_messages())
 
     def refresh(self) -> None:
         """Show the editor's state in all panes, in the list and in the toolbar."""
@@ -137,11 +162,11 @@ class Picker(WithParts, VBox):
             self.redraw()
 
     def redraw(self) -> None:
-        """Draw the lines anew in the other panes, whose projections have changed."""
+        """Redraw the lines in the other panes, after their projections have changed."""
         for pane in self._others:
             self._draw(pane)
 
-    def _bind(self):
+    def _bind(self) -> None:
         workspace, editor = self.workspace, self.editor
         workspace.observe(self._take_document, "document")
         bind(self, "interpretation", workspace, lambda document: document.drawing.interpretation, editor.load)
@@ -149,27 +174,27 @@ class Picker(WithParts, VBox):
         self.pane.observe(lambda change: setattr(self.editor, "viewport", change.new), "view")
         self.observe(lambda change: self._enter(change.new), "mode")
 
-    def _take_document(self, change):
+    def _take_document(self, change: Bunch) -> None:
         if isinstance(change.old, Document) and change.old.section is not change.new.section:
             self.editor.reset()
-            self._complaints = {}
+            self._messages = {}
             self._set_snapping()
-        self._show_state()  # other panes follow once the restoration does
+        self._show_state()  # the other panes follow with the restoration
 
-    def _show_state(self):
+    def _show_state(self) -> None:
         history, state = self.workspace.history, self.editor.state
         self._draw(self.pane)
-        self.list.update(self._wrong())
-        self._show_history(self._undo, "undo", history.next_undo, "Ctrl+Z")
-        self._show_history(self._redo, "do again", history.next_redo, "Ctrl+Y")
-        self._finish.disabled = state.drawing.draft is None
+        self.list.update(self._all_messages())
+        self._show_history("undo", history.next_undo)
+        self._show_history("redo", history.next_redo)
+        self.buttons["finish"].disabled = state.drawing.draft is None
         self.mode, self.dragging = state.mode, state.drag is not None
 
-    def _enter(self, mode):
+    def _enter(self, mode: str) -> None:
         self.editor.enter(mode)
         self.refresh()
 
-    def _draw(self, pane):
+    def _draw(self, pane: SectionPane) -> None:
         state, projection = self.editor.state, pane.projection()
         shown = state, projection.view, projection.restoration
         if self._drawn.get(pane) == shown:
@@ -179,12 +204,13 @@ class Picker(WithParts, VBox):
         pane.draw_marks(marks(state, projection, self.editor.cutoffs()))
         pane.rubber = rubber_band(state, projection)
 
-    def _show_history(self, button, action, entry, keys):
-        button.disabled = entry is None
-        button.tooltip = f"{action}: {entry.label} ({keys})" if entry else f"{action} ({keys})"
+    def _show_history(self, name: str, entry: Entry | None) -> None:
+        _, action, keys = ACTIONS[name]
+        self.buttons[name].disabled = entry is None
+        self.buttons[name].tooltip = f"{action}: {entry.label} ({keys})" if entry else f"{action} ({keys})"
 
-    def _wrong(self):
-        return {**self._complaints, **{name: ("problem", text) for name, text in dict(self.editor.problems).items()}}
+    def _all_messages(self) -> dict[str, tuple[str, str]]:
+        return {**self._messages, **{name: ("problem", text) for name, text in self.editor.problems}}
 
     def _handle(self, gesture: Gesture) -> bool:
         before = self.editor.state
@@ -194,15 +220,15 @@ class Picker(WithParts, VBox):
         return consumed
 
     @validate("interpretation")
-    def _valid_interpretation(self, proposal):
+    def _valid_interpretation(self, proposal: Bunch) -> Interpretation:
         return self.workspace.as_drawn(proposal.value)
 
     @validate("fixed")
-    def _valid_fixed(self, proposal):
+    def _valid_fixed(self, proposal: Bunch) -> Point | None:
         return None if proposal.value is None else validation.held_point(proposal.value)
 
     @observe("snap", "window", "follow")
-    def _set_snapping(self, change=None):
+    def _set_snapping(self, change: Bunch | None = None) -> None:
         section, event, window = self.workspace.section, self.snap, self.window
         self.editor.snap = self.editor.follow = None
         if event != OFF:
@@ -210,50 +236,49 @@ class Picker(WithParts, VBox):
             if self.follow:
                 self.editor.follow = lambda start, end: follow_event(section, start, end, event, max(20.0, 4 * window))
 
-    def _made_toolbar(self):
+    def _make_toolbar(self) -> Box:
         modes = ToggleButtons(
-            options=[(name, mode) for mode, (name, _) in MODE_NAMES.items()],
-            tooltips=[text for _, text in MODE_NAMES.values()],
+            options=[(label, mode) for mode, (label, _) in MODE_LABELS.items()],
+            tooltips=[tooltip for _, tooltip in MODE_LABELS.values()],
             style={"button_width": "auto"},
         )
-        self._undo = self._button("undo", "undo (Ctrl+Z)", self.editor.undo)
-        self._redo = self._button("repeat", "do again (Ctrl+Y)", self.editor.redo)
-        self._finish = self._button("check", "finish the line (Enter)", self.editor.finish)
-        new = self._button("plus", "the next line is a horizon of its own (Escape)", self._begin_horizon)
         snap = Dropdown(
             options=[("no snapping", OFF), *((f"snap to {event}", event) for event in EVENTS)],
-            tooltip="the event that the vertices of horizons snap to",
+            tooltip="Event that the vertices of horizons snap to",
             layout=Layout(width="150px"),
         )
         follow = ToggleButton(
-            description="Follow", tooltip="lines between two clicks follow the event", layout=Layout(width="auto")
+            description="Follow", tooltip="Follow the event between two clicks", layout=Layout(width="auto")
         )
         window = BoundedFloatText(
             min=0.5,
             max=100,
             step=0.5,
             description="± samples",
-            tooltip="how far a vertex may move to snap",
+            tooltip="How far a vertex may move to snap",
             style={"description_width": "initial"},
             layout=Layout(width="132px"),
         )
         for widget, name in ((modes, "mode"), (snap, "snap"), (window, "window"), (follow, "follow")):
             bind_control(self, name, widget)
-        tools = [modes, HBox([self._undo, self._redo, self._finish, new]), HBox([snap, window, follow])]
+        tools = [modes, HBox(list(self.buttons.values())), HBox([snap, window, follow])]
         return Box(
             tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 10px")
         )
 
-    def _begin_horizon(self):
+    def _begin_horizon(self) -> None:
         self.editor.enter(HORIZON)
         self.editor.deselect()
 
-    def _button(self, icon, tooltip, action: Callable[[], object]):
-        def act(_):
-            with UI_LOCK:
-                action()
-                self.refresh()
-
-        button = Button(icon=icon, tooltip=tooltip, layout=Layout(width="36px"))
-        button.on_click(act)
+    def _button(self, name: str) -> Button:
+        icon, action, keys = ACTIONS[name]
+        button = Button(icon=icon, tooltip=f"{action} ({keys})", layout=Layout(width="36px"))
+        button.on_click(lambda _: self._act(name))
         return button
+
+    def _act(self, name: str) -> None:
+        editor = self.editor
+        actions = {"undo": editor.undo, "redo": editor.redo, "finish": editor.finish, "new": self._begin_horizon}
+        with UI_LOCK:
+            actions[name]()
+            self.refresh()

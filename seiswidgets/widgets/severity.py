@@ -1,4 +1,4 @@
-"""The looks of findings on the screen: for each severity a colour, an icon and a word, so that none stands alone."""
+"""The looks of findings: each severity has a colour, an icon and a word, so that none stands alone."""
 
 from dataclasses import dataclass
 from html import escape
@@ -28,11 +28,11 @@ class Look:
     Attributes
     ----------
     colours : tuple of str
-        Fill of its labels, and ink on it.
+        Fill and ink of its labels.
     path : str
-        Its icon: an SVG path in a square of 16.
+        SVG path of its icon, in a square of 16 units.
     role : str
-        ARIA role of a live message: "alert" interrupts what a screen reader says.
+        ARIA role of a live message; "alert" interrupts a screen reader.
     """
 
     colours: tuple[str, str]

@@ -1,105 +1,118 @@
-"""A slider through the steps of a restoration, which plays."""
+"""A slider with Play through the steps of a restoration."""
 
+from collections.abc import Iterable
 from math import ceil
+from typing import Any
 
 from ipywidgets import HBox, IntSlider, Label, Layout, Play, jslink
-from traitlets import Float, List, Unicode, observe, validate
+from traitlets import Bunch, Float, List, Unicode, observe, validate
 
 from seiswidgets.errors import SettingError
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.key_guard import KeyGuard
 
-FRAMES = 20  # a step
-INTERVAL = 100  # ms from frame to frame
+FRAMES = 20  # per step
+INTERVAL = 100  # ms between two frames
 
 
 class Timeline(WithParts, HBox):
-    """A moment between the section of today and the restored one, on a slider with Play.
+    """A moment between the present-day section and the restored one, on a slider with Play.
 
-    Play runs to the end once, from today if it is at the end. With the keyboard: Tab goes to Play and to the slider,
-    arrows move by a frame.
+    Play runs to the end once, from the present day if it is at the end. With the keyboard, Tab moves to Play and to the
+    slider, and the arrows move by a frame.
 
     Parameters
     ----------
     labels : sequence of str
+        Initial value of the attribute.
+    **settings
+        Initial values of the other attributes.
 
     Attributes
     ----------
     labels : list of str
-        What each step is called; when they change, time is at the end.
+        Names of the steps; when they change, time moves to the end.
     time : float
-        From 0, today, to the number of steps; may be set.
+        From 0, the present day, to the number of steps; may be set.
     moment : str
         The time in words.
+    play, slider, text : Play, IntSlider, Label
+        The controls.
 
     Raises
     ------
     SettingError
-        If the time is set to before 0 or after the last step.
+        If the time is set to before 0 or after the last step, or a keyword does not exist.
     """
 
     labels = List(Unicode())
     time = Float()
     moment = Unicode()
 
-    def __init__(self, labels=(), **traits):
-        self._play = Play(
-            interval=INTERVAL, show_repeat=False, tooltip="Play from today to the end", layout=Layout(flex="0 0 88px")
+    def __init__(self, labels: Iterable[str] = (), **settings: Any):
+        self.check_settings(settings)
+        self.play = Play(
+            interval=INTERVAL,
+            show_repeat=False,
+            tooltip="Play from the present day to the end",
+            layout=Layout(flex="0 0 88px"),
         )
-        self._slider = IntSlider(
+        self.slider = IntSlider(
             description="Time",
             readout=False,
             style={"description_width": "initial"},
             layout=Layout(flex="1 1 auto", width="auto", min_width="0"),
         )
-        self._text = Label(layout=Layout(flex="0 0 auto", min_width="104px"))
-        self._link = jslink((self._play, "value"), (self._slider, "value"))
-        self._slider.observe(self._follow, "value")
-        super().__init__([KeyGuard(), self._play, self._slider, self._text], **traits)
-        self.labels = list(labels)
+        self.text = Label(layout=Layout(flex="0 0 auto", min_width="104px"))
+        self._link = jslink((self.play, "value"), (self.slider, "value"))
+        self.slider.observe(self._take_slider, "value")
+        super().__init__([KeyGuard(), self.play, self.slider, self.text])
         self._take_labels()
+        self.labels = list(labels)
+        for name, value in settings.items():
+            setattr(self, name, value)
 
     @validate("time")
-    def _valid_time(self, proposal):
+    def _valid_time(self, proposal: Bunch) -> float:
         count = len(self.labels)
         if not 0 <= proposal.value <= count:
             raise SettingError(f"time must be from 0 to {count}, the number of steps, but is {proposal.value:g}")
-        return proposal.value
+        return float(proposal.value)
 
     @observe("labels")
-    def _take_labels(self, change=None):
+    def _take_labels(self, change: Bunch | None = None) -> None:
         count = len(self.labels)
-        most = FRAMES * max(count, 1)  # a slider from 0 to 0 cannot be
-        for control in (self._play, self._slider):
+        end = FRAMES * max(count, 1)  # a slider cannot run from 0 to 0
+        for control in (self.play, self.slider):
             control.disabled = not count
-            control.max = max(most, control.value)  # or it would move, and be taken for moved by the user
+            control.max = max(end, control.value)  # a smaller one would change the value, as if the user had
         self.time = float(count)
-        for control in (self._play, self._slider):
-            control.max = most
-        self._say()
+        for control in (self.play, self.slider):
+            control.max = end
+        self._show_moment()
 
     @observe("time")
-    def _take_time(self, change):
-        for control in (self._play, self._slider):  # both, for pages that have yet to come
+    def _take_time(self, change: Bunch) -> None:
+        for control in (self.play, self.slider):  # both, for pages that appear later
             control.value = _frame(self.time)
-        self._say()
+        self._show_moment()
 
-    def _follow(self, change):
-        if change.new != _frame(self.time):  # else it is the slider that follows the time
+    def _take_slider(self, change: Bunch) -> None:
+        if change.new != _frame(self.time):  # else the slider has followed the time
             self.time = change.new / FRAMES
 
-    def _say(self):
-        self.moment = self._text.value = _moment(self.time, self.labels)
+    def _show_moment(self) -> None:
+        self.moment = self.text.value = _moment(self.time, self.labels)
 
 
-def _frame(time):
+def _frame(time: float) -> int:
     return round(FRAMES * time)
 
 
-def _moment(time, labels):
+def _moment(time: float, labels: list[str]) -> str:
     if not labels:
         return "nothing restored"
     if time in (0, len(labels)):
-        return "restored" if time else "today"
+        return "restored" if time else "present day"
     step = ceil(time) - 1
     return f"{labels[step]} {time - step:.0%}"

@@ -1,4 +1,4 @@
-"""A restoration at moments between the present day and its end."""
+"""Display of a restoration at moments between the present day and its end."""
 
 from collections.abc import Callable
 
@@ -16,31 +16,31 @@ class TimelinePlayer:
     Parameters
     ----------
     panes : LinkedPanes
-    shown : callable()
-        Called after each.
+    drawn : callable()
+        Called after each moment that is drawn.
     """
 
-    def __init__(self, panes: LinkedPanes, shown: Callable[[], None]):
-        self._panes, self._shown, self._runner = panes, shown, JobRunner()
+    def __init__(self, panes: LinkedPanes, drawn: Callable[[], None]):
+        self._panes, self._drawn, self._runner = panes, drawn, JobRunner()
 
     def show(self, restoration: Restoration, time: float) -> None:
         """Show a restoration at a time, from 0, the present day, to the number of its stages."""
         self._runner.drop()
         if time < len(restoration.stages):
             moment = restoration.at(time)
-            self._take(Snapshot.of(moment, moving=True))
-            self._runner.submit(Job(lambda job: Snapshot.of(moment), self._take, log_error), REST)
+            self._draw(Snapshot.of(moment, moving=True))
+            self._runner.submit(Job(lambda job: Snapshot.of(moment), self._draw, log_error), REST)
         elif self._panes.shown.restoration is not restoration:
-            self._take(Snapshot.of(restoration))
+            self._draw(Snapshot.of(restoration))
 
     def cancel(self) -> None:
-        """Leave what is shown as it is."""
+        """Draw nothing more, and leave what is shown as it is."""
         self._runner.drop()
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until all is shown in detail; False after the timeout in seconds."""
+        """Wait until everything is shown in detail; False after the timeout in seconds."""
         return self._runner.wait(timeout)
 
-    def _take(self, snapshot):
+    def _draw(self, snapshot: Snapshot) -> None:
         self._panes.show(snapshot)
-        self._shown()
+        self._drawn()

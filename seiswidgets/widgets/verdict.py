@@ -1,8 +1,9 @@
-"""The verdict on a restoration: whether its result can be trusted, in a few words."""
+"""The verdict on a restoration: a few words on how far its result can be trusted."""
 
 from dataclasses import dataclass
 
 from seiswidgets.geology.findings import Finding, worst_first
+from seiswidgets.geology.report import Report
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.widgets.severity import GOOD
 
@@ -28,9 +29,9 @@ class Verdict:
     title : str
         A few words, such as "not settled".
     text : str
-        One sentence: that of the worst finding, if there is a warning or a problem.
+        One sentence: that of the worst finding if there is a warning or a problem.
     rest : str
-        Where to find the other findings, "" if there are none.
+        Reference to the other findings; "" if there are none.
     findings : tuple of Finding
         All of them, worst first.
     """
@@ -43,7 +44,7 @@ class Verdict:
 
     @classmethod
     def of(cls, restoration: Restoration) -> "Verdict":
-        """Judge a restoration by the findings of its stages."""
+        """Judge a restoration by its findings."""
         findings = findings_of(restoration)
         grave = [finding for finding in findings if finding.severity != "note"]
         if not grave:
@@ -55,23 +56,23 @@ class Verdict:
 
     @property
     def is_good(self) -> bool:
-        """Whether there is neither a warning nor a problem."""
+        """True if there is neither a warning nor a problem."""
         return self.severity == GOOD
 
-    def __str__(self):
+    def __str__(self) -> str:
         joint = ". " if self.is_good else ": "
         return joint.join(filter(None, (self.title, f"{self.text} {self.rest}".strip())))
 
 
 def findings_of(restoration: Restoration) -> tuple[Finding, ...]:
     """Findings of all stages, worst first; a stage that did not settle has one that says so."""
-    found = []
+    findings: list[Finding] = []
     for stage in restoration.stages:
         report = stage.report
         if not report.converged and all(finding.kind != UNSETTLED for finding in report.findings):
-            found.append(_unsettled(report))
-        found += report.findings
-    return worst_first(found)
+            findings.append(_unsettled(report))
+        findings += report.findings
+    return worst_first(findings)
 
 
 def title_of(finding: Finding) -> str:
@@ -79,7 +80,7 @@ def title_of(finding: Finding) -> str:
     return TITLES.get(finding.kind, finding.kind)
 
 
-def _unsettled(report):
+def _unsettled(report: Report) -> Finding:
     text = (
         f"{report.kind} {', '.join(report.picks)} did not settle in {report.iterations} iterations; simplify the "
         "picks, change the weights, or use a coarser mesh"
@@ -87,13 +88,13 @@ def _unsettled(report):
     return Finding("problem", UNSETTLED, text)
 
 
-def _achievements(restoration):
-    """State what no finding denies: that cut-offs meet, and that horizons are level."""
+def _achievements(restoration: Restoration) -> str:
+    """List the achievements: cut-offs that meet, and horizons that are level."""
     reports = [stage.report for stage in restoration.stages]
     level = [bed.horizon for bed in reports[-1].beds if bed.flatness is not None]  # later stages may bend earlier beds
     meet = ["Cut-offs meet."] if any(report.cutoffs for report in reports) else []
     return " ".join([*meet, *(f"{name} lies on its datum." for name in level)])
 
 
-def _notes(count):
+def _notes(count: int) -> str:
     return f"{count} note{'s' if count > 1 else ''} (see Report)" if count else ""

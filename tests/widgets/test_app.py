@@ -207,12 +207,12 @@ def test_cancel_leaves_what_was_there(app, monkeypatch):
 
 def test_progress_names_the_step_its_iteration_and_the_energy(app, monkeypatch):
     said = []
-    monkeypatch.setattr(restorer, "BETWEEN", 0.0)
-    app.status._label.observe(lambda change: said.append(change.new), "value")
+    monkeypatch.setattr(restorer, "REPORT_INTERVAL", 0.0)
+    app.status.label.observe(lambda change: said.append(change.new), "value")
     app.weights = sw.Weights(stitch=77.0)
     assert app.wait(LONG)
     assert any(text.startswith("unfault: iteration 1, energy ") and text.endswith("m²") for text in said)
-    assert app.status._progress.layout.display == "none"
+    assert app.status.progress.layout.display == "none"
 
 
 def test_what_is_wrong_is_said_in_the_app_and_beside_the_pick(app, case):
@@ -222,7 +222,7 @@ def test_what_is_wrong_is_said_in_the_app_and_beside_the_pick(app, case):
     app.restore()
     assert app.wait(LONG)
     assert "<b>far</b>" in app.status.text
-    assert "<b>far</b>" not in app.status._line.value
+    assert "<b>far</b>" not in app.status.line.value
     rows = app.picker.list.rows("fault")
     assert "&lt;b&gt;far&lt;/b&gt;" in rows["<b>far</b>"].message.value
     assert app.restoration is before

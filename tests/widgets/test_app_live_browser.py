@@ -202,7 +202,7 @@ def test_play_brush_and_hover(open_app):
     screen.page.locator(".widget-play button").first.click()
     screen.until("len(times) > 3")
     on_the_way = screen.page.locator(".seiswidgets-layer .plot").nth(1).locator(".strokes").inner_html()
-    screen.until("app.timeline.time == 2 and not app.timeline._play.playing and app.wait(30)")
+    screen.until("app.timeline.time == 2 and not app.timeline.play.playing and app.wait(30)")
     assert screen.ask("times") == sorted(screen.ask("times"))
     assert screen.pictures() == end
     assert screen.plots.nth(1).locator(".strokes").inner_html() != on_the_way

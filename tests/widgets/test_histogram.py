@@ -5,7 +5,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.core.deformation import AREA_RATIO_COLOURS, area_ratio_histogram, colour_span, weighted_percentiles
 from seiswidgets.interaction.colour import RatioColouring
-from seiswidgets.widgets.histogram import APART, ratio_ticks
+from seiswidgets.widgets.histogram import TICK_DISTANCE, ratio_ticks
 
 
 @pytest.fixture
@@ -151,7 +151,7 @@ def test_ticks_are_round_and_apart(span, some):
     assert 3 <= len(ticks) <= 11
     assert min(ticks) >= 1 / span
     assert max(ticks) <= span
-    assert (np.diff(np.log(ticks)) >= 2 * APART * np.log(span) * (1 - 1e-9)).all()
+    assert (np.diff(np.log(ticks)) >= 2 * TICK_DISTANCE * np.log(span) * (1 - 1e-9)).all()
 
 
 @pytest.mark.parametrize("brush", [[1.0], [1.1, 0.9], [0, 1], [0.9, np.nan], ["a", "b"], [0.9, 1, 1.1]])

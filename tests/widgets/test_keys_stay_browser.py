@@ -112,12 +112,12 @@ def test_a_part_that_goes_or_takes_no_focus_leaves_no_key_to_the_notebook(open_a
     screen.press("Enter")
     screen.becomes("len(app.interpretation.faults)", 0)
     screen.press("x", "d", "d", "m")
-    undo = screen.button("undo (Ctrl+Z)")
+    undo = screen.button("Undo (Ctrl+Z)")
     undo.focus()
     screen.press("Enter", "Enter")
     expect(undo).to_be_disabled()
     screen.press("x", "d", "d", "m")
-    for place in (page.get_by_text("Today", exact=True), undo):  # a click on neither moves the focus to it
+    for place in (page.get_by_text("Present day", exact=True), undo):  # a click on neither moves the focus to it
         place.click(force=True)
         screen.press("x", "d", "d", "m")
         assert page.evaluate(KEPT)
@@ -133,7 +133,7 @@ def test_keys_keep_their_meaning_in_the_app(open_app):
     screen.button("Look").focus()
     screen.press(" ")
     screen.becomes("app.picker.mode", "look")
-    page.get_by_title("what the vertices of horizons snap to").locator("visible=true").last.focus()
+    page.get_by_title("vertices of horizons snap to").locator("visible=true").last.focus()
     screen.press("ArrowDown")
     screen.becomes("app.picker.snap", "peak")
     name = page.get_by_title("name of this fault")

@@ -75,12 +75,12 @@ def test_what_is_under_the_pointer_is_read_out_in_units(panes, restored, case):
     assert reading.amplitude == pytest.approx(case.section.amplitude[row, column])
     assert reading.ratio == pytest.approx(restored.area_ratio_at([point])[0])
     for words in ("1230 m", "depth 780 m", "amplitude", "area ratio", "restored"):
-        assert words in panes._readout.value
+        assert words in panes.readout.value
     hover(panes.restored, reading.restored)
     np.testing.assert_allclose(seen[-1].original, point, atol=1e-3)
     tell(panes.restored, "leave")
     assert seen[-1] is None
-    assert "amplitude" not in panes._readout.value
+    assert "amplitude" not in panes.readout.value
 
 
 def test_beyond_the_rock_there_is_nothing_to_read(panes):
@@ -176,4 +176,4 @@ def test_the_right_side_of_a_still_says_whether_it_is_restored(monkeypatch):
     panes.still()
     panes.restoration = sw.Restoration(case.section, spacing=400).flatten(sw.Horizon([(100, 500), (3900, 500)]))
     panes.still()
-    assert titles == [["Today", "Not restored yet"], ["Today", "Restored"]]
+    assert titles == [["Present day", "Not restored yet"], ["Present day", "Restored"]]

@@ -122,9 +122,9 @@ def test_an_error_is_said_below_the_pane_with_its_names_escaped(section, sent):
     pane.on_gesture(fail)
     tell(pane, "press", x=1, y=1)
     assert pane.message.startswith("fault '<img")
-    assert "&lt;img" in pane._line.value
-    assert "<img" not in pane._line.value
-    assert pane._line.layout.display == ""
+    assert "&lt;img" in pane.message_line.value
+    assert "<img" not in pane.message_line.value
+    assert pane.message_line.layout.display == ""
 
 
 def test_gestures_that_are_consumed_do_not_pan(section, sent):

@@ -131,7 +131,7 @@ def test_what_is_wrong_with_a_pick_is_said_beside_it(drawn):
 
 
 def test_a_horizon_of_its_own_is_begun_by_the_button(drawn):
-    new = drawn.toolbar.children[1].children[3]
+    new = drawn.buttons["new"]
     new.click()
     draw(drawn.pane, (50.0, 500.0), (400.0, 510.0))
     assert [len(horizon.pieces) for horizon in drawn.interpretation.horizons] == [2, 1]
@@ -166,7 +166,7 @@ def test_picks_to_start_with_cannot_be_undone(section):
     keys(picker.pane, "z", modifiers=["ctrl"])
     assert [fault.name for fault in picker.interpretation.faults] == ["F1"]
     assert picker.fixed == (100.0, 100.0)
-    assert picker.toolbar.children[1].children[0].disabled
+    assert picker.buttons["undo"].disabled
 
 
 def test_a_fault_drawn_after_a_horizon_is_one_edit(drawn):

@@ -17,7 +17,7 @@ def told(timeline):
 
 
 def controls(timeline):
-    return timeline._play, timeline._slider
+    return timeline.play, timeline.slider
 
 
 def test_with_nothing_restored_it_is_disabled():
@@ -25,7 +25,7 @@ def test_with_nothing_restored_it_is_disabled():
     assert all(control.disabled for control in controls(timeline))
     assert timeline.time == 0
     assert timeline.moment == "nothing restored"
-    assert timeline._slider.min < timeline._slider.max  # or the browser could not draw it
+    assert timeline.slider.min < timeline.slider.max  # or the browser could not draw it
 
 
 @pytest.mark.parametrize("count", [1, 2, 5])
@@ -39,19 +39,19 @@ def test_it_begins_at_the_end(count):
 
 @pytest.mark.parametrize(
     ("time", "moment"),
-    [(0, "today"), (0.4, "unfault 40%"), (1, "unfault 100%"), (1.05, "flatten 5%"), (2, "restored")],
+    [(0, "present day"), (0.4, "unfault 40%"), (1, "unfault 100%"), (1.05, "flatten 5%"), (2, "restored")],
 )
 def test_the_moment_in_words(timeline, time, moment):
     timeline.time = time
     assert timeline.moment == moment
-    assert timeline._text.value == moment
+    assert timeline.text.value == moment
 
 
 def test_time_follows_the_slider(timeline, told):
-    timeline._slider.value = 7
-    timeline._slider.value = 40
+    timeline.slider.value = 7
+    timeline.slider.value = 40
     assert told == [0.35, 2.0]
-    assert timeline._play.value == 40  # so that Play goes on from here
+    assert timeline.play.value == 40  # so that Play goes on from here
 
 
 def test_the_slider_follows_time_which_is_kept_as_it_was_set(timeline, told):

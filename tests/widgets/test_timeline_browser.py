@@ -20,7 +20,7 @@ def test_play_runs_once_to_the_end(notebook):
         opened.page.get_by_text("restored" if start == 2 else "unfault 55%", exact=True).wait_for()
         opened.ask("heard.clear()")
         opened.page.locator(".widget-play button").first.click()
-        opened.until("heard and timeline.time == 2 and not timeline._play.playing")
+        opened.until("heard and timeline.time == 2 and not timeline.play.playing")
         heard = opened.ask("heard")
         assert heard == sorted(heard)
         assert heard[0] == pytest.approx(0 if start == 2 else start, abs=0.11)  # frames may be left out
@@ -42,4 +42,4 @@ def test_the_slider_keeps_its_place_after_a_reload(notebook):
     handle.focus()
     opened.page.keyboard.press("ArrowRight")
     opened.until("timeline.time == 0.35")
-    opened.until("timeline._play.value == 7")  # Play goes on from there
+    opened.until("timeline.play.value == 7")  # Play goes on from there

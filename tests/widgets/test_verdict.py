@@ -108,9 +108,9 @@ def test_no_verdict_is_given_on_a_quick_look_or_on_nothing(case, unfaulted):
 def test_only_problems_interrupt_and_names_are_text(unfaulted, finding, role):
     bar = StatusBar(None, None)
     bar.judge(judged(unfaulted, replace(finding, text=f"{finding.text} {NASTY}")))
-    assert f'role="{role}"' in bar._line.value
-    assert "<img" not in bar._line.value
-    assert bar._line.value.count("&lt;img") == (0 if finding is TOLD else 2)  # in the line, and in its tooltip
+    assert f'role="{role}"' in bar.line.value
+    assert "<img" not in bar.line.value
+    assert bar.line.value.count("&lt;img") == (0 if finding is TOLD else 2)  # in the line, and in its tooltip
 
 
 @pytest.mark.parametrize("severity", LOOKS)
@@ -216,8 +216,8 @@ def test_a_result_that_did_not_settle_does_not_look_like_a_good_one(new_app, uns
     fold, stopped = unsettled
     app = new_app(fold.section, fold.interpretation, fixed=fold.fixed, live=False)
     app.restoration = stopped
-    assert "did not settle" in app.status._line.value
-    assert 'role="alert"' in app.status._line.value
+    assert "did not settle" in app.status.line.value
+    assert 'role="alert"' in app.status.line.value
     assert app.panes.restored.badge.severity == "problem"
     assert "did not settle" in app.reports.page.value.split("<table")[0]
 
@@ -229,7 +229,7 @@ def test_contradicting_picks_are_a_problem_in_the_app(app, case):
     rising = sw.Horizon(third.pieces[0], first.pieces[1], name="rising")
     app.interpretation = sw.Interpretation(case.interpretation.faults, [falling, rising])
     assert app.wait(LONG)
-    assert 'role="alert"' in app.status._line.value
+    assert 'role="alert"' in app.status.line.value
     assert "more (see Report)" in app.status.text
     assert app.panes.restored.badge.severity == "problem"
     assert "falling at fault F1" in message(app.picker, "horizon").value
@@ -285,6 +285,6 @@ def test_picks_that_are_not_finished_are_not_scolded(app, case):
     above = sw.Fault([(3000.0, 50.0), (3100.0, 300.0)], "F2")
     app.interpretation = sw.Interpretation([*case.interpretation.faults, above], case.interpretation.horizons)
     assert app.wait(LONG)
-    said = (app.status._line.value, *(row.message.value for row in app.picker.list.rows("fault").values()))
+    said = (app.status.line.value, *(row.message.value for row in app.picker.list.rows("fault").values()))
     assert "F2" in "".join(said)
     assert not any('role="alert"' in text or "problem" in text for text in said)

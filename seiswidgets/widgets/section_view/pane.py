@@ -82,6 +82,8 @@ class SectionPane(WithParts, VBox):
         Frame and label that mark a result that needs a look.
     message : str
         Text below the pane, usually an error.
+    message_line : HTML
+        The widget that shows it.
 
     Raises
     ------
@@ -116,8 +118,8 @@ class SectionPane(WithParts, VBox):
         self.layer = PointerLayer(hotkeys=list(KEYS), layout=_plot_area())
         self.badge = PaneBadge(_plot_area())
         self._grid = GridBox([self._painter.canvas, self.layer, self.badge], layout=_grid_layout())
-        self._line = HTML(layout=Layout(display="none"))
-        super().__init__([self._grid, self._line], section=section, view=Viewport(section), **settings)
+        self.message_line = HTML(layout=Layout(display="none"))
+        super().__init__([self._grid, self.message_line], section=section, view=Viewport(section), **settings)
         dlink((self, "height"), (self._grid.layout, "height"), "{}px".format)
         self.view = self.view if exaggeration is None else self.view.exaggerated(exaggeration)
         dlink((self, "mesh_opacity"), (self.layer, "mesh_opacity"))
@@ -241,8 +243,8 @@ class SectionPane(WithParts, VBox):
 
     @observe("message")
     def _show_message(self, change: Bunch) -> None:
-        self._line.value = TROUBLE.format(escape(self.message))
-        self._line.layout.display = "" if self.message else "none"
+        self.message_line.value = TROUBLE.format(escape(self.message))
+        self.message_line.layout.display = "" if self.message else "none"
 
     def _receive(self, message: PointerMessage) -> None:
         """Handle a message from the browser, and show errors below the pane."""
