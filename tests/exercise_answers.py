@@ -35,7 +35,7 @@ ANSWERS = {
     "03_fault_restoration": [
         ("43.7 m", {"330": "other way round", "41": "takes the throw for the slip", "128": "along the fault"}),
         (
-            "the cross_fault_correlation",
+            "the correlation",
             {
                 "the deformation": "slid as a whole",
                 "how far the cut-offs are apart": "the wrong ones too",
@@ -59,7 +59,7 @@ ANSWERS = {
                 "the shape of the other beds": "lay one over the other",
             },
         ),
-        ("45", {"0": "That is the truth", "55": "taken away", "100": "flatter", "224": "other way round"}),
+        ("46", {"0": "That is the truth", "54": "taken away", "100": "flatter", "216": "other way round"}),
     ],
     "05_two_domains": [
         ("775", {"695": "without the fault", "609": "lengthens", "845": "vertical"}),
@@ -77,7 +77,7 @@ ANSWERS = {
             "throw in metres",
             {
                 "throw in ms": "no velocity comes in",
-                "cross_fault_correlation": "it changes by",
+                "correlation": "it changes by",
                 "deformation": "not in proportion",
                 "none of them": "as steeply",
             },

@@ -53,7 +53,7 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
     Raises
     ------
     SettingError
-        If there is no bin, the brush is not a range of ratios above 0, or a keyword does not exist; and as for `show`.
+        If there is no bin, the brush is not a range of ratios above 0; and as for `show`.
     """
 
     _esm = asset("histogram.js")

@@ -97,7 +97,7 @@ class LinkedPanes(WithParts, VBox):
 
     Raises
     ------
-    SettingError
+    TypeError
         If a keyword does not exist.
     """
 

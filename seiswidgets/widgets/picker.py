@@ -89,7 +89,7 @@ class Picker(WithParts, VBox):
 
     Raises
     ------
-    SettingError
+    TypeError
         If a keyword does not exist.
     """
 

@@ -42,7 +42,7 @@ class Timeline(WithParts, HBox):
     Raises
     ------
     SettingError
-        If the time is set to before 0 or after the last step, or a keyword does not exist.
+        If the time is set to before 0 or after the last step.
     """
 
     labels = List(Unicode())

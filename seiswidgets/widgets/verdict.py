@@ -2,14 +2,12 @@
 
 from dataclasses import dataclass
 
-from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.report import Report
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.widgets.severity import GOOD
 
-UNSETTLED = "unsettled"
 TITLES = {
-    UNSETTLED: "not settled",
+    "unsettled": "not settled",
     "cut-off": "cut-offs apart",
     "contact": "fault sides apart",
     "overlap": "rock on rock",
@@ -45,7 +43,7 @@ class Verdict:
     @classmethod
     def of(cls, restoration: Restoration) -> "Verdict":
         """Judge a restoration by its findings."""
-        findings = findings_of(restoration)
+        findings = restoration.findings
         grave = [finding for finding in findings if finding.severity != "note"]
         if not grave:
             return cls(GOOD, "Settled", _achievements(restoration), _notes(len(findings)), findings)
@@ -64,28 +62,9 @@ class Verdict:
         return joint.join(filter(None, (self.title, f"{self.text} {self.rest}".strip())))
 
 
-def findings_of(restoration: Restoration) -> tuple[Finding, ...]:
-    """Findings of all stages, worst first; a stage that did not settle has one that says so."""
-    findings: list[Finding] = []
-    for stage in restoration.stages:
-        report = stage.report
-        if not report.converged and all(finding.kind != UNSETTLED for finding in report.findings):
-            findings.append(_unsettled(report))
-        findings += report.findings
-    return worst_first(findings)
-
-
 def title_of(finding: Finding) -> str:
     """Name a finding in two or three words."""
     return TITLES.get(finding.kind, finding.kind)
-
-
-def _unsettled(report: Report) -> Finding:
-    text = (
-        f"{report.kind} {', '.join(report.picks)} did not settle in {report.iterations} iterations; simplify the "
-        "picks, change the weights, or use a coarser mesh"
-    )
-    return Finding("problem", UNSETTLED, text)
 
 
 def _achievements(restoration: Restoration) -> str:

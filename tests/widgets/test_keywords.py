@@ -22,13 +22,13 @@ SECTION = sw.synthetic.planar_fault().section
 )
 def test_a_misspelt_keyword_is_an_error_that_suggests_the_right_one(widget, keywords, meant):
     (misspelt,) = keywords.keys() - {"section", "restoration"}
-    with pytest.raises(sw.SettingError, match=f"^{widget.__name__} has no keyword {misspelt}=; did you mean {meant}="):
+    with pytest.raises(TypeError, match=f"^{widget.__name__} has no keyword {misspelt}=; did you mean {meant}="):
         widget(**keywords)
 
 
 @pytest.mark.parametrize("name", ["children", "keys", "comm", "settings"])
 def test_what_a_widget_sets_by_itself_is_no_keyword(name):
-    with pytest.raises(sw.SettingError, match=f"Timeline has no keyword {name}=; .*labels"):
+    with pytest.raises(TypeError, match=f"Timeline has no keyword {name}=; .*labels"):
         sw.Timeline(**{name: []})
 
 

@@ -18,7 +18,7 @@ from seiswidgets.widgets.section_view.still import LEFT, SIZE, TOP
 from seiswidgets.widgets.severity import LOOKS, label
 from seiswidgets.widgets.snapshot import Snapshot
 from seiswidgets.widgets.status_bar import BUSY, StatusBar
-from seiswidgets.widgets.verdict import TITLES, Verdict, findings_of
+from seiswidgets.widgets.verdict import TITLES, Verdict
 from tests.widgets.hands import appear, drag_to, press, release
 
 LONG = 60  # seconds until a restoration must be done
@@ -86,16 +86,12 @@ def test_a_kind_without_a_title_of_its_own_is_its_own_title(unfaulted):
     assert judged(unfaulted, sw.Finding("problem", "hinge", "a hinge")).title == "hinge"
 
 
-def test_a_stage_that_did_not_settle_is_a_problem_said_once(unfaulted, unsettled):
+def test_a_stage_that_did_not_settle_is_one_problem(unsettled):
     _, stopped = unsettled
     verdict = Verdict.of(stopped)
     assert verdict.severity == "problem"
-    assert any(finding.kind == "unsettled" for finding in verdict.findings)
-    known = sw.Finding("problem", "unsettled", "did not settle")
-    assert findings_of(with_report(unfaulted, converged=False, findings=(known,))) == (known,)
-    (made,) = findings_of(with_report(unfaulted, converged=False, findings=()))
-    assert (made.severity, made.kind) == ("problem", "unsettled")
-    assert "unfault F1 did not settle" in made.text
+    unsettled_stages = sum(not stage.report.converged for stage in stopped.stages)
+    assert [finding.kind for finding in verdict.findings].count("unsettled") == unsettled_stages > 0
 
 
 def test_no_verdict_is_given_on_a_quick_look_or_on_nothing(case, unfaulted):

@@ -7,7 +7,7 @@ from ipywidgets import HTML, VBox
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.widgets.messages import HINT
 from seiswidgets.widgets.severity import remark
-from seiswidgets.widgets.verdict import findings_of, title_of
+from seiswidgets.widgets.verdict import title_of
 
 NOTHING = HINT.format("Nothing has been restored yet.")
 
@@ -26,6 +26,6 @@ class Reports(VBox):
 
     def show(self, restoration: Restoration) -> None:
         """Show the findings of a restoration, worst first, and below them the reports on its stages."""
-        remarks = [remark(finding.severity, finding.text, title_of(finding)) for finding in findings_of(restoration)]
+        remarks = [remark(finding.severity, finding.text, title_of(finding)) for finding in restoration.findings]
         tables = [replace(stage.report, findings=())._repr_html_() for stage in restoration.stages]
         self.page.value = "".join([*remarks, *tables]) or NOTHING

@@ -88,7 +88,7 @@ class SectionPane(WithParts, VBox):
     Raises
     ------
     SettingError
-        If a setting is out of its range, or a keyword does not exist.
+        If a setting is out of its range.
     """
 
     section = Instance(Section)
