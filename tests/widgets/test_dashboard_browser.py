@@ -159,7 +159,7 @@ def test_each_tab_keeps_its_own_and_a_new_one_gets_the_last(open_dashboard):
 
 
 @pytest.mark.parametrize(
-    ("forbid", "reason"), [(FULL, "no room is left"), (FORBIDDEN, "it lets no page store anything")]
+    ("forbid", "reason"), [(FULL, "no room is left"), (FORBIDDEN, "it does not let this page store anything")]
 )
 def test_a_browser_that_keeps_nothing_is_said(open_dashboard, forbid, reason):
     page = open_dashboard(forbid)
