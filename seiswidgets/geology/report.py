@@ -5,6 +5,8 @@ from html import escape
 
 from seiswidgets.geology.findings import COLOURS, Finding, worst_first
 
+CONSTRAINTS = {"cut-off", "contact", "datum", "bed length", "overlap"}  # kinds of findings
+
 
 @dataclass(frozen=True)
 class CutOffReport:
@@ -101,6 +103,11 @@ class Report:
     findings: tuple[Finding, ...] = ()
     x_unit: str = "m"
     z_unit: str = "m"
+
+    @property
+    def unmet(self) -> tuple[str, ...]:
+        """Texts of the findings about constraints that gave way: cut-offs, contacts, levels, lengths and room."""
+        return tuple(finding.text for finding in self.findings if finding.kind in CONSTRAINTS)
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the report line by line, each a label and a text with its unit; findings follow the first line."""

@@ -138,7 +138,9 @@ def test_a_solver_that_did_not_settle():
     assert "max_iterations" in unsettled.text
     assert case.section.contains([unsettled.where]).all()
     assert not restored.settled
-    assert restored.stages[-1].report.findings[0].severity == "problem"
+    report = restored.stages[-1].report
+    assert report.findings[0].severity == "problem"
+    assert unsettled.text not in report.unmet
 
 
 @pytest.fixture(scope="module")
@@ -159,6 +161,7 @@ def test_cut_offs_that_stay_apart(contradicting):
         np.testing.assert_allclose(finding.where, horizon.pieces[1][0], rtol=1e-6)
         assert finding.text.startswith(f"horizon {horizon.name} at fault F1: its cut-offs are still ")
         assert " m apart, near x=" in finding.text
+    assert {finding.text for finding in apart} <= set(restored.stages[-1].report.unmet)
 
 
 def test_sides_of_a_fault_that_part(contradicting):
