@@ -20,7 +20,7 @@ class Exhibit:
 
     @property
     def has_picks(self) -> bool:
-        """Whether the section comes with an interpreter's picks, as synthetic ones do."""
+        """True if the section comes with an interpreter's picks, as synthetic ones do."""
         return self.load.__module__ == synthetic.__name__
 
     @property

@@ -125,7 +125,7 @@ class Workspace(HasTraits):
         self.edit(f"open {_title(section, source)}", section=section, drawing=drawing, source=source, plan=plan)
 
     def as_drawn(self, interpretation: Interpretation) -> Interpretation:
-        """Interpretation that results from loading this one; the present one if they are equal."""
+        """Interpretation that results from loading one; loading the present one changes nothing."""
         if interpretation is self.interpretation:
             return interpretation  # not the same picks in another order, which would be an edit
         return self.drawing.with_interpretation(interpretation).interpretation

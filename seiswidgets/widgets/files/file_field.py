@@ -50,7 +50,7 @@ class FileField(VBox):
 
     @property
     def is_uploaded(self) -> bool:
-        """Whether the file is an upload, which is temporary."""
+        """True if the file is an upload, which is temporary."""
         return self.upload.path is not None and self.path == str(self.upload.path)
 
     def end(self) -> None:

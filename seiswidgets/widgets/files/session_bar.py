@@ -74,7 +74,7 @@ class SessionBar(VBox):
 
     @property
     def is_saved(self) -> bool:
-        """Whether all finished edits are in the session's file."""
+        """True if all finished edits are in the session's file."""
         return self._autosave is not None and self._autosave.pending is None
 
     def keep(self, path: str | PathLike | None) -> None:
