@@ -117,7 +117,7 @@ def _slipped(slips, beds):
     faults = []
     for slip in slips:
         line = slip.line()
-        faults, *beds = ([slip.apply(part) for part in _parted(lines, line)] for lines in (faults, *beds))
+        faults, *beds = ([slip.applied(part) for part in _parted(lines, line)] for lines in (faults, *beds))
         faults.append(line)
     faults, *beds = ([part.simplify(DRAWN) for line in lines for part in _clipped(line)] for lines in (faults, *beds))
     return faults, beds

@@ -223,6 +223,7 @@ class Notebook(Page):
         if self.page.locator("body").get_attribute("data-jp-theme-light") != light:  # as the last test left it
             self.command("apputils:change-theme", {"theme": f"JupyterLab {'Dark' if dark else 'Light'}"})
             self.page.locator(f"body[data-jp-theme-light={light}]").wait_for(state="attached")
+            self.page.locator("#jupyterlab-splash").wait_for(state="detached")  # covers the page, and takes its clicks
 
     def command(self, name, arguments=None):
         """Execute one of JupyterLab's commands."""

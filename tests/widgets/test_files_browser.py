@@ -199,6 +199,7 @@ def test_results_go_out_and_sections_come_in_by_mouse(notebook, name, lab, tmp_p
     app.page.get_by_role("button", name="Open section").click()
     app.becomes("[app.section.name, app.section.shape]", ["sent", [6000, 500]])
     shoot(app, "file-opened")
+    app.becomes("app.close()", None)  # deletes the upload, before the kernel is ended
 
 
 def export_and_cancel(app):

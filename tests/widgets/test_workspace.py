@@ -89,7 +89,7 @@ def test_one_of_each_edit_is_undone_and_redone(app, tmp_path):
         edit(app, tmp_path)
         documents.append(app.workspace.document)
         counts.append(history.undo_count)
-        assert undo.tooltip == f"undo: {label} (Ctrl+Z)"
+        assert undo.tooltip == f"Undo: {label} (Ctrl+Z)"
     assert (counts[1], counts[-1] - counts[1]) == (3, len(EDITS) - 1)  # the fault is drawn in three clicks
     for index in range(len(EDITS), 0, -1):
         for _ in range(counts[index] - counts[index - 1]):

@@ -91,7 +91,7 @@ class StepRow(VBox):
         self._offer_picks()
         self.datum.description = f"datum ({self.z_unit})"
         self.datum.layout.display = "" if self.step.kind == FLATTEN else "none"
-        if change.name == "step":
+        if change.name == "step" and change.new != change.old:  # else a datum may be half typed
             self.datum.value = "" if self.step.datum is None else _exact(self.step.datum)
             self._show_error("")
 
