@@ -137,7 +137,7 @@ polylines = st.lists(points, min_size=2, max_size=6, unique=True).map(shapely.Li
 
 
 def may_be_picked(line):
-    """Whether a line neither crosses itself nor turns back by more than 170 degrees, as picks must not."""
+    """Return whether a line neither crosses itself nor turns back by more than 170 degrees, as picks must not."""
     arms = np.diff(shapely.get_coordinates(line), axis=0)
     arms /= np.linalg.norm(arms, axis=1)[:, None]
     return line.is_simple and (np.sum(arms[1:] * arms[:-1], axis=1) > -np.cos(np.radians(10))).all()

@@ -1,4 +1,4 @@
-"""What a report tells the user to look at: known faults of drawings, each found and named in the section's units."""
+"""Findings of a report: known faults of drawings are found, and named in the section's units."""
 
 from dataclasses import replace
 
@@ -145,7 +145,7 @@ def test_a_solver_that_did_not_settle():
 
 @pytest.fixture(scope="module")
 def contradicting():
-    """What is the upper bed on one side is the lower one on the other: no slip makes both match."""
+    """The upper bed of one side is joined to the lower one of the other: no slip makes both match."""
     case = sw.synthetic.planar_fault()
     (left, right), _, (low_left, low_right) = (horizon.pieces for horizon in case.interpretation.horizons)
     crossed = [sw.Horizon(left, low_right, name="A"), sw.Horizon(low_left, right, name="B")]

@@ -84,7 +84,7 @@ FORBIDDEN = """for (const name of ["localStorage", "sessionStorage"])
 
 
 def names(page):
-    """Of the picks, as the list of the app has them."""
+    """Names of the picks in the app's list."""
     return page.locator("input[title^='name of this']")
 
 
@@ -111,7 +111,7 @@ def rename(page, name):
 
 
 def line(page):
-    """The first line on the section of today, as drawn."""
+    """The first line drawn on the present-day section."""
     return page.locator(".seiswidgets-layer .plot").first.locator(".stroke .line").first.get_attribute("d")
 
 

@@ -18,7 +18,7 @@ def no_current_canvas():
 
 
 def test_the_private_names_of_ipycanvas_are_still_there():
-    """Where this fails, see what a new version has changed, adapt `ipycanvas_compat`, and move the upper pin."""
+    """If this fails, see what a new version has changed, adapt `ipycanvas_compat`, and move the upper pin."""
     assert version("ipycanvas").startswith("0.14.")
     assert ipycanvas.canvas._CANVAS_MANAGER is CANVAS_MANAGER
     assert {"_caching", "_commands_cache", "_buffers_cache", "_current_canvas"} <= set(vars(CANVAS_MANAGER))

@@ -33,7 +33,7 @@ def test_other_versions_of_the_kernel_are_left_alone():
 
 
 def test_ipykernel_still_asks_the_widget_for_the_thread():
-    """Where this fails, see how a new version chooses the thread, and adapt `ipykernel_compat`."""
+    """If this fails, see how a new version chooses the thread, and adapt `ipykernel_compat`."""
     if Version(version("ipykernel")) < Version("7.4"):
         pytest.skip("earlier versions keep the order by themselves")
     assert ROUTE in inspect.getsource(ipykernel.kernelbase)

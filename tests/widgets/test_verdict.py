@@ -143,7 +143,7 @@ def test_the_restored_pane_is_marked_and_so_is_its_still_picture(unfaulted):
 
 
 def framed_in_red(panes):
-    """Whether each half of the still picture has a red upper edge."""
+    """Return whether each half of the still picture has a red upper edge."""
     picture = np.asarray(Image.open(BytesIO(base64.b64decode(panes.still()))))
     halves = np.split(picture, 2, axis=1)
     return [bool((half[TOP + 1, LEFT : LEFT + SIZE[0]] == (0xD3, 0x2F, 0x2F)).all()) for half in halves]
