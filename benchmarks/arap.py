@@ -29,7 +29,7 @@ def rows():
 
 
 def iterations(solve, rest, truth):
-    """How many iterations a solver needs to come within 1e-5 of the answer, but for a shift along x."""
+    """Number of iterations until a solver is within 1e-5 of the answer, apart from a shift along x."""
     largest, low, high = np.linalg.norm(truth - rest, axis=1).max(), 0, 1
 
     def far(count):

@@ -201,7 +201,7 @@ def settled(opened):
 
 
 def vertex(opened):
-    """Where in the window a vertex of the first horizon is."""
+    """Position in the window of a vertex of the first horizon."""
     code = "app.panes.original.view.to_pixels(app.interpretation.horizons[0].pieces[0][20]).tolist()"
     x, y = opened.ask(code)
     plot = opened.page.locator(".seiswidgets-layer .plot").first

@@ -31,7 +31,7 @@ def rows():
 
 
 def restored(seed):
-    """What became of each stage of a case: its state and, of either solver, the number of flipped triangles."""
+    """Outcome of each stage of a case: its state and, for either solver, the number of flipped triangles."""
     section, faults, horizons, fixed = random_case(seed)
     before, stages = sw.Restoration(section, spacing=SPACING), []
     for kind, solve in (
@@ -60,7 +60,7 @@ def flips(restoration):
 
 
 def refused(solve, before):
-    """How many triangles the fixed point turns over."""
+    """Number of triangles that the fixed point turns over."""
     try:
         solve(before, solver="fixed-point", max_iterations=FIXED_POINT_ITERATIONS)
     except sw.FlippedError as error:

@@ -1,4 +1,4 @@
-"""How time and memory grow with the mesh."""
+"""Growth of time and memory with the mesh."""
 
 import subprocess
 import sys

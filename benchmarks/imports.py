@@ -1,4 +1,4 @@
-"""What ``import seiswidgets`` costs in a new process."""
+"""Cost of ``import seiswidgets`` in a new process."""
 
 import subprocess
 import sys

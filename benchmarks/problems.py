@@ -1,4 +1,4 @@
-"""What stages hand to their solver, to be solved without them."""
+"""The problems that stages hand to their solver, to be solved on their own."""
 
 from dataclasses import dataclass, field, replace
 from unittest.mock import patch
@@ -32,7 +32,7 @@ class Problem(Exception):
 
 
 def problem(case, count, fixed=None) -> Problem:
-    """Of flattening a case's middle horizon, or unfaulting it if it has faults, with about so many vertices."""
+    """Problem of flattening a case's middle horizon, or of unfaulting it if it has faults; about ``count`` vertices."""
     x_min, x_max, z_min, z_max = case.section.extent
     spacing = np.sqrt((x_max - x_min) * (z_max - z_min) * 1.15 / count)
     for _ in range(3):  # picks make a mesh finer than the spacing

@@ -1,4 +1,4 @@
-"""What restoring costs, beside other libraries: one table. Name groups to run only those.
+"""Cost of restoring, beside other libraries, in one table. Name groups to run only those.
 
 Every ratio is of medians within one run on one machine, ours and the peer's measured in turns.
 """

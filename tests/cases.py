@@ -133,7 +133,7 @@ def _clipped(line):
 
 
 def _well_apart(faults):
-    """Whether faults are long enough, and meet or keep their distance."""
+    """True if faults are long enough, and meet or keep their distance."""
     if min(fault.length for fault in faults) < 4 * SPACING:
         return False
     for fault in faults:

@@ -1,4 +1,4 @@
-"""What students answer to the notebooks' exercises: the right answer, and wrong ones with a word of the hint they get.
+"""Answers of students to the notebooks' exercises: the right one, and wrong ones with a word of the hint they get.
 
 The right answers are worked out by hand from what each notebook sets (a throw of 150 m on a fault of 60°, ...), or
 read off its figures, and typed as a student would.

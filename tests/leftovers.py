@@ -1,4 +1,4 @@
-"""What a test may leave behind: nothing."""
+"""Check that a test leaves nothing behind."""
 
 import gc
 import os
@@ -53,14 +53,14 @@ def ended(processes, patience=60.0):
 
 
 def _running():
-    """What is at work or open, in pairs of its kind and what it is."""
+    """Running threads and processes, and open files, as pairs of kind and object."""
     yield from (("thread", thread) for thread in threading.enumerate())
     yield from (("process", number) for number in _children())
     yield from (("open file", opened) for opened in _open_files())
 
 
 def _files(folders):
-    """What lies in folders, in the same way."""
+    """Files in folders, as such pairs."""
     for folder in folders:
         yield from (("file", os.path.join(folder, name)) for name in _names(folder) if not NOT_OF_TESTS.fullmatch(name))
 

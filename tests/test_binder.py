@@ -1,4 +1,4 @@
-"""What binder/ pins is what pyproject.toml asks for; without the network. `make binder-check` installs it."""
+"""The packages pinned in binder/ satisfy pyproject.toml; without the network. `make binder-check` installs them."""
 
 import tomllib
 from importlib.metadata import PackageNotFoundError, distribution
@@ -29,7 +29,7 @@ def asked(requirements, extras):
 
 
 def needed():
-    """What the project and its extra `binder` ask for, through the extras that this names in turn."""
+    """Requirements of the project and its extra `binder`, with those of the extras that it names."""
     extras = PROJECT["optional-dependencies"]
     waiting, found = [*PROJECT["dependencies"], "seiswidgets[binder]"], []
     for text in waiting:

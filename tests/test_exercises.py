@@ -1,4 +1,4 @@
-"""What a question makes of an answer, and the form that asks it; the answers are given in test_notebooks_browser."""
+"""Judging answers, and the form that asks for them; test_notebooks_browser gives the answers."""
 
 from html import escape
 

@@ -32,7 +32,7 @@ def code(page):
 
 
 def links(page):
-    """Where a page's links and pictures lead."""
+    """Targets of a page's links and pictures."""
     text = FENCED.sub("", prose(page))
     return re.findall(r"\]\(\s*<?([^)\s>]+)>?\s*\)", text) + re.findall(r"^\[[^\]]+\]:\s*(\S+)", text, re.MULTILINE)
 

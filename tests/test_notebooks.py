@@ -1,4 +1,4 @@
-"""What the notebooks say; that they run is tested in JupyterLab, by tests/widgets/test_notebooks_browser.py."""
+"""Contents of the notebooks; that they run is tested in JupyterLab, by tests/widgets/test_notebooks_browser.py."""
 
 import ast
 import re

@@ -138,7 +138,7 @@ def choices(draw):
 
 
 def outcome(section, faults, horizons, vertices, fixed, flattened, most):
-    """What comes of a drawing: a word for it; an AssertionError if a triangle is turned over."""
+    """Restore a drawing and name the outcome; an AssertionError if a triangle is turned over."""
     start = sw.Restoration(section, spacing=spacing(section, vertices))
     fixed = None if fixed is None else placed(section, fixed)
     restored = start.unfault(faults, horizons, fixed=fixed, max_iterations=most)

@@ -822,7 +822,7 @@ def perform(editor, action):
 
 
 def check_edit(editor, before, depth, dragging):
-    """What a gesture did can be undone and made again; it is one edit, or two where it ended a drag as well."""
+    """Undo and redo a gesture: it is one edit, or two if it ended a drag as well."""
     edits = editor.history.undo_count - depth
     assert edits <= 1 + dragging
     if edits > 0 and not editor.state.drag:

@@ -20,7 +20,7 @@ def sines(dx=25.0, dz=4.0, dip=0.4, period=PERIOD, traces=60):
 
 
 def event_depth(section, x, z, event, dip=0.4, period=PERIOD):
-    """Where the event nearest to a point is, in closed form."""
+    """Position of the event nearest to a point, in closed form."""
     column, row = (x - section.x0) / section.dx, (z - section.z0) / section.dz
     first = PHASE[event] * period + dip * column
     return section.z0 + section.dz * (first + period * np.round((row - first) / period))

@@ -1,4 +1,4 @@
-"""What is seen stays where it was: there and back again, at every zoom, stretch and resolution."""
+"""Conversions between pixels and sections, there and back, at every zoom, exaggeration and resolution."""
 
 import itertools
 

@@ -54,7 +54,7 @@ def mutated(content, random):
 
 
 def outcome(path, choices):
-    """Whether a file opens, else whether the error that it gives is one of ours that names it and says what to do."""
+    """True if a file opens, or its error is one of ours that names the file and says what to do."""
     for act in (sw.preview, lambda path: sw.open_section(path, **choices)):
         try:
             act(path)

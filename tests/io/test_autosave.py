@@ -36,7 +36,7 @@ def wait_for(condition, seconds=20.0):
 
 @pytest.fixture
 def path(tmp_path):
-    """Where to save; no unfinished file must be left behind."""
+    """Path to save to; no unfinished file must be left behind."""
     yield tmp_path / "line.json"
     assert not list(tmp_path.rglob("*.part"))
 

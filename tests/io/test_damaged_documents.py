@@ -75,7 +75,7 @@ def with_evil_number(rng, content):
 
 
 def outcome(path, content, read):
-    """What reading a damaged file came to; checks the error, the time, and that the file is left alone."""
+    """Read a damaged file; check the error, the time, and that the file is left alone."""
     path.write_bytes(content)
     begun = time.process_time()
     try:

@@ -33,7 +33,7 @@ PIXELS = """(canvases) => canvases.map((canvas) => {
 
 
 class AppScreen:
-    """What a hand does to the app, and what it sees.
+    """Operate the app by hand, and read what it shows.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class AppScreen:
         self.pictures()
 
     def button(self, name):
-        """Of the toolbar or the status bar, by its text, or what it says of itself."""
+        """A button of the toolbar or the status bar, by its text or its accessible name."""
         return self.page.locator(f"button:has-text('{name}'), button[title*='{name}']").first
 
     def tab(self, name):
@@ -66,7 +66,7 @@ class AppScreen:
         )
 
     def lines(self, number=0):
-        """What the layer of a pane has drawn, without the cursors, once that has not changed for a while."""
+        """Pixels of a pane's layer without the cursors, once they have not changed for a while."""
         parts = [self.plots.nth(number).locator(f".{name}").first for name in ("mesh", "strokes", "marks")]
         return settled(lambda: [part.evaluate("one => one.outerHTML") for part in parts])
 
@@ -79,7 +79,7 @@ class AppScreen:
         )
 
     def pixels(self, points, number=0):
-        """Where points of a pane's section are on the page, in css pixels, shape (n, 2)."""
+        """Positions of points of a pane's section on the page, in CSS pixels, shape (n, 2)."""
         box = self.plots.nth(number).bounding_box()
         at = self.ask(f"panes[{number % 2}].view.to_pixels({np.asarray(points).tolist()}).tolist()")
         return np.add(at, [box["x"], box["y"]]).clip(  # a click on the very border may miss

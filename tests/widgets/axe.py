@@ -1,4 +1,4 @@
-"""What axe-core finds on a page that would shut somebody out."""
+"""Accessibility violations that axe-core finds on a page."""
 
 from importlib import resources
 

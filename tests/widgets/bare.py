@@ -81,7 +81,7 @@ class BareLayer:
         self.page.evaluate("async (traits) => { take(traits); await frame(); }", _plain(traits))
 
     def get(self, name):
-        """What a trait is."""
+        """Value of a trait."""
         return self.page.evaluate("(name) => model.get(name)", name)
 
     def attributes(self, selector, *names):
@@ -112,7 +112,7 @@ class BareLayer:
 
 
 def _plain(value):
-    """What can be passed to a page; bytes are marked as such."""
+    """Convert a value for a page; bytes are marked as such."""
     if isinstance(value, bytes):
         return {"bytes": b64encode(value).decode()}
     if isinstance(value, dict):

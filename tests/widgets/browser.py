@@ -114,7 +114,7 @@ class Server:
             self.process.wait()
 
     def _asked(self, path, method="GET", content=None):
-        """What its interface answers."""
+        """The answer of the server's interface."""
         token, address = {"Authorization": f"token {self.token}"}, f"http://127.0.0.1:{self.port}/api/{path}"
         data = None if content is None else json.dumps(content).encode()
         request = urllib.request.Request(address, data, token, method=method)
@@ -130,7 +130,7 @@ class Server:
         return name
 
     def address(self, path, place="lab/tree"):
-        """Of a notebook, or of something else at a place of the server."""
+        """URL of a notebook, or of another path on the server."""
         return f"http://127.0.0.1:{self.port}/{place}/{path}?reset&token={self.token}"
 
 
@@ -253,7 +253,7 @@ class Notebook(Page):
         assert self.ask("True")
 
     def ask(self, code):
-        """What an expression is in the kernel, by way of the notebook's own kernel connection."""
+        """Value of an expression in the kernel, through the notebook's own kernel connection."""
         told = self.page.evaluate(ASK, f"__import__('json').dumps({code})")
         if told["status"] != "ok":
             raise RuntimeError("\n".join(told["traceback"]))
@@ -310,7 +310,7 @@ ASK = """async (code) => {
 
 
 def awaited(read, suits, wanted):
-    """What a function gives as soon as that suits: a page shows things some frames after its kernel knows them."""
+    """Result of a function once it suits: a page shows things some frames after its kernel knows them."""
     end = time.monotonic() + RUN
     while not suits(found := read()):
         if time.monotonic() > end:
@@ -320,7 +320,7 @@ def awaited(read, suits, wanted):
 
 
 def settled(read, suits=lambda found: True):
-    """What a function gives once that suits and has not changed for a while."""
+    """Result of a function once it suits and has not changed for a while."""
     last = None
 
     def is_settled(found):

@@ -73,7 +73,7 @@ def _draw(page, points, finished=True):
 
 
 def _on_page(page, points):
-    """Where points are on the page, read off the axes as a person would, since not every page has a kernel to ask."""
+    """Positions of points on the page, read off the axes as a person would: not every page has a kernel to ask."""
     plot = page.locator("canvas.seiswidgets-plot").first
     plot.scroll_into_view_if_needed()
     box, ticks = plot.bounding_box(), page.evaluate(TICKS)

@@ -1,4 +1,4 @@
-"""What a browser would tell of a hand at work, told to a pane without one."""
+"""Messages that a browser would send for gestures, sent to a pane without a browser."""
 
 SIZE = {"kind": "size", "width": 800, "height": 400, "ratio": 1, "fresh": True}
 

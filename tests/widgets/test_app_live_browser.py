@@ -28,14 +28,14 @@ NAME = "<img src=x onerror=alert(1)>"
 
 
 def linked_cross(screen, number):
-    """Where the other pane's cursor is shown in a pane, in css pixels of its plot area."""
+    """Position of the other pane's cursor in a pane, in CSS pixels of its plot area."""
     lines = screen.plots.nth(number).locator(".linked line.cross")
     x = lines.nth(0).get_attribute("x1")
     return float(x), float(lines.nth(1).get_attribute("y1"))
 
 
 def sent_by_a_sweep(screen):
-    """How many messages 250 moves of the mouse in each pane take."""
+    """Number of messages for 250 moves of the mouse in each pane."""
     frames = len(screen.opened.sent)
     for number in (0, 1):
         box = screen.plots.nth(number).bounding_box()
@@ -101,7 +101,7 @@ def polylines(path):
 
 
 def distances(points, line):
-    """Of points from a polyline, shape (n,)."""
+    """Distances of points from a polyline, shape (n,)."""
     start, way = line[:-1], np.diff(line, axis=0)
     off = points[:, None] - start
     share = np.clip((off * way).sum(axis=2) / np.maximum((way**2).sum(axis=1), 1e-12), 0, 1)
@@ -157,7 +157,7 @@ def test_twenty_quick_moves_of_a_slider_draw_the_newest_and_nothing_older_after_
 
 
 def is_newest(screen, handle):
-    """What is drawn at the end is of the slider's place, and nothing was drawn after something newer."""
+    """The last picture belongs to the slider's position, and no picture followed a newer one."""
     at = float(handle.get_attribute("aria-valuenow"))
     screen.nears("np.log10(app.weights.mean_value)", at, 0.051)  # the slider says it to a tenth
     screen.until("app.wait(30) and shown[-1] == app.weights.mean_value and not app.panes.shown.moving")
@@ -239,6 +239,6 @@ COLOURFUL = """(places) => {
 
 
 def colourful(screen, points):
-    """How far from grey the original's pane is at some points."""
+    """Colourfulness of the original's pane at some points."""
     box = screen.plots.first.bounding_box()
     return screen.page.evaluate(COLOURFUL, (screen.pixels(points) - [box["x"], box["y"]]).tolist())

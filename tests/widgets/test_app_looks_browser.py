@@ -23,7 +23,7 @@ def look(screen, state):
 
 
 def is_filled(screen, pictures):
-    """Whether each canvas has as many pixels as the plot area is large."""
+    """True if each canvas has as many pixels as its plot area."""
     for (width, height, *_), box in zip(
         pictures, (screen.plots.nth(number).bounding_box() for number in (0, 1)), strict=True
     ):

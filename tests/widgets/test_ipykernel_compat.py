@@ -11,7 +11,7 @@ from seiswidgets.widgets.ipykernel_compat import ROUTE, keep_order
 
 
 def threads(*widgets):
-    """Where messages go that came by another thread, as ipykernel asks the widget; None is the main one."""
+    """Destination of messages that came by another thread, as ipykernel asks the widget; None is the main thread."""
     return [getattr(widget.comm, ROUTE)({}, "other") for widget in widgets]
 
 

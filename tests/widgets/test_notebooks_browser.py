@@ -55,7 +55,7 @@ def walk(notebook, lab):
 
 
 def has_run(opened):
-    """What the cells show: all have run, without an error or a warning."""
+    """Outputs of the cells, all of which have run without an error or a warning."""
     outputs = opened.page.evaluate(OUTPUTS)
     assert outputs
     assert {output["output_type"] for output in outputs} <= {"display_data", "execute_result", "stream"}

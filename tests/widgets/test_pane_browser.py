@@ -106,13 +106,13 @@ PIXELS = """(number) => {
 
 
 def painted(opened, number=0):
-    """What is on the canvas, once it holds a picture."""
+    """Pixels of the canvas, once it holds a picture."""
     opened.page.locator("canvas.seiswidgets-plot").nth(number).wait_for()
     return still(opened, lambda pixels: pixels["left"][3] == 255, number)
 
 
 def still(opened, suits=lambda pixels: True, number=0):
-    """What is on the canvas, once that has not changed for a while."""
+    """Pixels of the canvas, once they have not changed for a while."""
     return settled(lambda: opened.page.evaluate(PIXELS, number), suits)
 
 
@@ -177,7 +177,7 @@ def test_wheel_drag_and_double_click(notebook):
 
 
 def drawn(opened, number=0):
-    """What the layer has drawn, without the cursors, once that has not changed for a while."""
+    """Pixels of the layer without the cursors, once they have not changed for a while."""
     plot = opened.page.locator(".seiswidgets-layer .plot").nth(number)
     parts = [plot.locator(f".{name}").first for name in ("mesh", "strokes", "marks")]
     return settled(lambda: [part.evaluate("one => one.outerHTML") for part in parts])
@@ -237,7 +237,7 @@ def test_a_section_that_moves_never_leaves_the_pane_blank(notebook):
 
 
 def sent_by_a_sweep(opened):
-    """How many messages 500 moves of the mouse take."""
+    """Number of messages for 500 moves of the mouse."""
     box = plot_box(opened)
     opened.page.mouse.move(box["x"] + 20, box["y"] + 20)
     frames = len(opened.sent)
