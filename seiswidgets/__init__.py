@@ -20,7 +20,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "SettingError",
         ],
         "geology": ["synthetic"],
-        "geology.cutoffs": ["heave", "throw"],
+        "geology.cutoffs": ["CutOff", "cutoffs", "heave", "throw"],
         "geology.findings": ["Finding"],
         "geology.correlation": ["cross_fault_correlation", "likeness"],
         "geology.picks": ["Fault", "Horizon", "Interpretation"],

@@ -1,11 +1,14 @@
-"""The cut-offs of horizons at faults, two for each pair, and the throw and heave that follow."""
+"""The cut-offs of horizons at faults, two at each place, and the throw and heave that follow."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NoReturn
 
 import numpy as np
-from shapely import LineString
+from numpy.typing import ArrayLike
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import min_weight_full_bipartite_matching
+from shapely import LineString, Point
 
 from seiswidgets.errors import PickError
 from seiswidgets.geology.picks import Fault, Horizon
@@ -18,8 +21,33 @@ SegmentEnd = tuple[int, int]  # index of a segment, and which end of it (0 or -1
 
 
 @dataclass(frozen=True)
+class CutOff:
+    """A place where a fault cuts a horizon off, in the section's units.
+
+    Attributes
+    ----------
+    fault, horizon : str
+        Their names.
+    hanging_wall, footwall : tuple (x, z)
+        The two points on the fault where the horizon ends.
+    throw : float
+        Vertical distance between them, positive where the hanging wall lies deeper (a normal fault).
+    heave : float
+        Horizontal distance between them, positive where the horizon has a gap (a normal fault), negative where it
+        overlaps itself.
+    """
+
+    fault: str
+    horizon: str
+    hanging_wall: Position
+    footwall: Position
+    throw: float
+    heave: float
+
+
+@dataclass(frozen=True)
 class CutOffPair:
-    """The two cut-offs of a horizon at a fault.
+    """The two cut-offs of a horizon at one place along a fault; a fault may cut a horizon at several.
 
     Attributes
     ----------
@@ -33,6 +61,44 @@ class CutOffPair:
     horizon: str
     hanging_wall: SegmentEnd
     footwall: SegmentEnd
+
+
+Place = tuple[SegmentEnd | None, SegmentEnd | None]  # hanging wall, footwall; None where no segment ends
+
+
+def places_along(line: LineString, index: int, segments: Sequence[HorizonSegment]) -> list[Place]:
+    """Pair the ends of a horizon's segments at a fault, place by place.
+
+    Slip moves all points of a side the same way, so the ends of both sides follow each other in the same order. Where
+    one side has more ends than the other, those are paired that lie closest along the fault.
+
+    Parameters
+    ----------
+    line : LineString
+        The fault.
+    index : int
+        Its index in the ends of the segments.
+    segments : list of HorizonSegment
+    """
+    sides: dict[int, list[tuple[float, SegmentEnd]]] = {1: [], -1: []}
+    for number, segment in enumerate(segments):
+        for which, end in zip((0, -1), segment.ends, strict=True):
+            if end and end.fault == index:
+                sides[end.side].append((line.project(Point(end.point)), (number, which)))
+    hanging_wall, footwall = sorted(sides[1]), sorted(sides[-1])
+    if len(hanging_wall) < len(footwall):
+        return [(end, other) for other, end in _partners(footwall, hanging_wall)]
+    return _partners(hanging_wall, footwall)
+
+
+def _partners(more: Sequence[tuple[float, SegmentEnd]], fewer: Sequence[tuple[float, SegmentEnd]]) -> list[Place]:
+    """Pair ends in order of arc length, such that the sum of the distances between partners is least."""
+    if not fewer:
+        return [(end, None) for _, end in more]
+    distances = np.abs(np.subtract.outer([at for at, _ in fewer], [at for at, _ in more]))
+    _, chosen = min_weight_full_bipartite_matching(csr_array(1 + distances))  # 1: a zero would be no edge
+    partner = {more[index][1]: other for index, (_, other) in zip(sorted(chosen), fewer, strict=True)}
+    return [(end, partner.get(end)) for _, end in more]
 
 
 def _unchanged(point: Position) -> Position:
@@ -68,9 +134,10 @@ class PickNetwork:
         Raises
         ------
         PickError
-            If a horizon meets a fault from one side only, or twice from one side, or if no horizon meets a fault.
+            If a horizon meets a fault from one side only, or more often from one side than from the other, or if no
+            horizon meets a fault.
         """
-        pairs = [pair for fault in self.faults for horizon in self.horizons if (pair := self._pair(fault, horizon))]
+        pairs = [pair for fault in self.faults for horizon in self.horizons for pair in self._pairs(fault, horizon)]
         for fault in self.faults:
             if not any(pair.fault == fault for pair in pairs):
                 raise PickError(
@@ -86,26 +153,22 @@ class PickNetwork:
         ends = (end for segments in self.horizons.values() for segment in segments for end in segment.ends)
         return [end.point for end in ends if end and end.fault == index]
 
-    def _pair(self, fault: str, horizon: str) -> CutOffPair | None:
-        sides = {side: self._ends_on_side(fault, horizon, side) for side in WALLS}
-        for side, ends in sides.items():
-            if len(ends) > 1:
-                self._raise_two_on_one_side(fault, horizon, side, ends)
-        if sides[1] and sides[-1]:
-            return CutOffPair(fault, horizon, sides[1][0], sides[-1][0])
-        if sides[1] or sides[-1]:
-            self._raise_one_sided(fault, horizon, sides)
-        return None
+    def places(self, fault: str, horizon: str) -> list[Place]:
+        """The places along a fault where it cuts a horizon off; see `places_along`."""
+        return places_along(self.faults[fault], list(self.faults).index(fault), self.horizons[horizon])
 
-    def _ends_on_side(self, fault: str, horizon: str, side: int) -> list[SegmentEnd]:
-        """The ends of a horizon's segments at a fault on one side."""
-        fault_index = list(self.faults).index(fault)
-        return [
-            (index, which)
-            for index, segment in enumerate(self.horizons[horizon])
-            for which in (0, -1)
-            if (end := segment.ends[which]) and end.fault == fault_index and end.side == side
-        ]
+    def _pairs(self, fault: str, horizon: str) -> list[CutOffPair]:
+        places = self.places(fault, horizon)
+        sides = {1: [place[0] for place in places if place[0]], -1: [place[1] for place in places if place[1]]}
+        if not sides[1] or not sides[-1]:
+            if places:
+                self._raise_one_sided(fault, horizon, sides)
+            return []
+        pairs = [CutOffPair(fault, horizon, one, other) for one, other in places if one and other]
+        if len(pairs) < len(places):
+            side = 1 if len(sides[1]) > len(sides[-1]) else -1
+            self._raise_two_on_one_side(fault, horizon, side, sorted(sides[side]))
+        return pairs
 
     def _point(self, horizon: str, segment_end: SegmentEnd) -> Position:
         index, which = segment_end
@@ -117,12 +180,12 @@ class PickNetwork:
         point = self._point(horizon, ends[1])
         raise PickError(
             f"{what} of horizon {horizon!r} reach fault {fault!r} in its {WALLS[side]}, the second near "
-            f"{self.where(point)}; keep one, or join them",
+            f"{self.where(point)}, and fewer in its {WALLS[-side]}; keep one, or join them",
             pick=horizon,
             where=self.position(point),
         )
 
-    def _raise_one_sided(self, fault: str, horizon: str, sides: dict[int, list[SegmentEnd]]) -> NoReturn:
+    def _raise_one_sided(self, fault: str, horizon: str, sides: Mapping[int, Sequence[SegmentEnd]]) -> NoReturn:
         present = 1 if sides[1] else -1
         point = self._point(horizon, sides[present][0])
         message = (
@@ -168,39 +231,75 @@ def _end_ahead(segment: HorizonSegment, which: int, fault: LineString) -> End | 
     return nearest_fault_ahead(segment.line, which, [fault], 1e3 * fault.length)
 
 
-def _cutoff_points(fault: Fault, horizon: Horizon) -> tuple[np.ndarray, np.ndarray]:
+def separation(fault: ArrayLike, hanging_wall: Position, footwall: Position) -> tuple[float, float]:
+    """Throw and heave between two points of a fault, given by its own points, shape (n, 2)."""
+    ends = np.asarray(fault)[[0, -1]]
+    top, bottom = ends[np.argsort(ends[:, 1], kind="stable")]
+    heave = (hanging_wall[0] - footwall[0]) * (1 if bottom[0] >= top[0] else -1)
+    return float(hanging_wall[1] - footwall[1]), float(heave)
+
+
+def cutoffs(fault: Fault, horizon: Horizon) -> tuple[CutOff, ...]:
+    """The places where a fault cuts a horizon off, in order along the fault.
+
+    Most often there is one; a fault may cut a fold, or the splays of another fault, at several.
+
+    Raises
+    ------
+    PickError
+        If the horizon does not reach the fault from both sides at each place.
+
+    Examples
+    --------
+    >>> import seiswidgets as sw
+    >>> picks = sw.synthetic.planar_fault(throw=100).interpretation
+    >>> [round(cutoff.throw) for cutoff in sw.cutoffs(picks.faults[0], picks.horizons[0])]
+    [100]
+    """
     line = LineString(fault.points)
     segments = horizon_segments([LineString(piece) for piece in horizon.pieces], [line])
     network = PickNetwork({fault.name: line}, {horizon.name: segments}, "x={0[0]:.6g}, z={0[1]:.6g}".format, unit="")
-    (pair,) = network.cutoffs()
-    hanging_wall, footwall = (segments[index].end_point(which) for index, which in (pair.hanging_wall, pair.footwall))
-    return np.array(hanging_wall), np.array(footwall)
+    found = []
+    for pair in network.cutoffs():
+        one, other = (segments[index].end_point(which) for index, which in (pair.hanging_wall, pair.footwall))
+        found.append(CutOff(fault.name, horizon.name, one, other, *separation(fault.points, one, other)))
+    return tuple(found)
 
 
 def throw(fault: Fault, horizon: Horizon) -> float:
-    """Vertical separation of a horizon's two cut-offs at a fault, in the section's unit of z.
+    """Vertical distance between a horizon's two cut-offs at a fault, in the section's unit of z.
 
     Positive where the hanging wall lies deeper (a normal fault).
 
     Raises
     ------
     PickError
-        If the horizon does not reach the fault from both sides.
+        If the horizon does not reach the fault from both sides, or the fault cuts it at several places.
     """
-    hanging_wall, footwall = _cutoff_points(fault, horizon)
-    return float(hanging_wall[1] - footwall[1])
+    return _only_cutoff(fault, horizon).throw
 
 
 def heave(fault: Fault, horizon: Horizon) -> float:
-    """Horizontal separation of a horizon's two cut-offs at a fault, in the section's unit of x.
+    """Horizontal distance between a horizon's two cut-offs at a fault, in the section's unit of x.
 
     Positive where the horizon has a gap (a normal fault), negative where it overlaps itself.
 
     Raises
     ------
     PickError
-        If the horizon does not reach the fault from both sides.
+        If the horizon does not reach the fault from both sides, or the fault cuts it at several places.
     """
-    hanging_wall, footwall = _cutoff_points(fault, horizon)
-    top, bottom = fault.points[np.argsort(fault.points[[0, -1], 1], kind="stable") * (len(fault.points) - 1)]
-    return float((hanging_wall[0] - footwall[0]) * (1 if bottom[0] >= top[0] else -1))
+    return _only_cutoff(fault, horizon).heave
+
+
+def _only_cutoff(fault: Fault, horizon: Horizon) -> CutOff:
+    found = cutoffs(fault, horizon)
+    if len(found) > 1:
+        where = " and ".join(f"x={x:.6g}, z={z:.6g}" for x, z in (cutoff.footwall for cutoff in found))
+        raise PickError(
+            f"fault {fault.name!r} cuts horizon {horizon.name!r} at {len(found)} places, near {where}, so there is no "
+            "single throw or heave; take one of cutoffs(fault, horizon)",
+            pick=horizon.name,
+            where=found[1].footwall,
+        )
+    return found[0]

@@ -8,7 +8,7 @@ import numpy as np
 from seiswidgets.core.contact import Contact
 from seiswidgets.core.solver import Solution
 from seiswidgets.core.terms import Level
-from seiswidgets.geology.cutoffs import CutOffPair
+from seiswidgets.geology.cutoffs import CutOffPair, separation
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_ends import fault_end_findings
 from seiswidgets.geology.findings import Finding
@@ -126,10 +126,9 @@ def _cutoffs(
     reports, apart = [], []
     for pair, (hanging_wall, footwall) in zip(blocks.cutoffs, blocks.stitches, strict=True):
         before = domain.section.from_rock(blocks.mesh.vertices[[hanging_wall, footwall]])
-        top, bottom = sorted((blocks.network.faults[pair.fault].coords[k] for k in (0, -1)), key=lambda end: end[1])
+        slip = separation(blocks.network.faults[pair.fault].coords, *before)
         misfit = float(np.hypot(*(vertices[hanging_wall] - vertices[footwall])))
-        heave = (before[0, 0] - before[1, 0]) * (1 if bottom[0] >= top[0] else -1)
-        reports.append(CutOffReport(pair.fault, pair.horizon, float(before[0, 1] - before[1, 1]), float(heave), misfit))
+        reports.append(CutOffReport(pair.fault, pair.horizon, *slip, misfit))
         if misfit > domain.slack:
             apart.append(_cutoffs_apart(pair, misfit, blocks.mesh.vertices[hanging_wall], domain))
     return tuple(reports), apart

@@ -1,14 +1,14 @@
 """The numbered cut-offs of a drawing, and dragging them along their faults."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 import shapely
 from shapely import LineString
 
-from seiswidgets.geology.cutoffs import WALLS
+from seiswidgets.geology.cutoffs import WALLS, places_along
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.segments import HorizonSegment, hanging_side, horizon_segments
@@ -25,7 +25,7 @@ class CutOffHandle:
     Attributes
     ----------
     number : int
-        From 1; the two cut-offs of a horizon at a fault share one.
+        From 1; the two cut-offs of a horizon at one place along a fault share one.
     fault, horizon : str
         Their names.
     wall : {"hanging wall", "footwall"}
@@ -53,19 +53,20 @@ class CutOffHandle:
 def cutoff_handles(drawing: Drawing, section: Section) -> tuple[CutOffHandle, ...]:
     """Cut-offs of all visible horizons at all visible faults; hidden ones keep their numbers."""
     faults = [fault.name for fault in drawing.interpretation.faults]
-    horizons = drawing.names(HORIZON)
-    handles: dict[tuple[str, str], list[CutOffHandle]] = {}
-    for pick in drawing.picks:
-        if pick.kind == HORIZON:
-            for handle in _handles_of(drawing, section, pick, faults):
-                handles.setdefault((handle.fault, handle.horizon), []).append(handle)
-    order = sorted(handles, key=lambda pair: (faults.index(pair[0]), horizons.index(pair[1])))
+    lines = [_rock_line(fault.points, section) for fault in drawing.interpretation.faults]
+    horizons = {pick.name: _segments(drawing, section, pick) for pick in drawing.picks if pick.kind == HORIZON}
+    places = [
+        (fault, horizon, ends)
+        for index, fault in enumerate(faults)
+        for horizon in drawing.names(HORIZON)
+        for ends in places_along(lines[index], index, horizons[horizon])
+    ]
     visible = {(pick.kind, pick.name) for pick in drawing.picks if pick.visible}
     return tuple(
-        replace(handle, number=number)
-        for number, (fault, horizon) in enumerate(order, 1)
+        _handle(number, fault, horizon, horizons[horizon], *end, section)
+        for number, (fault, horizon, ends) in enumerate(places, 1)
         if (FAULT, fault) in visible and (HORIZON, horizon) in visible
-        for handle in handles[fault, horizon]
+        for end in sorted(filter(None, ends))
     )
 
 
@@ -101,23 +102,15 @@ def wall_of(drawing: Drawing, section: Section, fault: str, point: Point) -> str
     return WALLS[hanging_side(line, _nearest(line, rock), rock)]
 
 
-def _handles_of(drawing: Drawing, section: Section, pick: Pick, faults: list[str]) -> list[CutOffHandle]:
-    """Cut-offs of one horizon, without their numbers."""
-    return [
-        CutOffHandle(
-            number=0,
-            fault=faults[end.fault],
-            horizon=pick.name,
-            wall=WALLS[end.side],
-            point=_in_section(end.point, section),
-            inside=_in_section(_point_inside(segment, index), section),
-            segment=count,
-            end=index,
-        )
-        for count, segment in enumerate(_segments(drawing, section, pick))
-        for index, end in zip(ENDS, segment.ends, strict=True)
-        if end
-    ]
+def _handle(
+    number: int, fault: str, horizon: str, segments: list[HorizonSegment], index: int, which: int, section: Section
+) -> CutOffHandle:
+    segment = segments[index]
+    end = segment.ends[which]
+    if end is None:
+        raise ValueError("a segment has no cut-off at its free end")
+    point, inside = _in_section(end.point, section), _in_section(_point_inside(segment, which), section)
+    return CutOffHandle(number, fault, horizon, WALLS[end.side], point, inside, index, which)
 
 
 def _point_inside(segment: HorizonSegment, end: int) -> Point:
@@ -161,5 +154,5 @@ def _in_section(point: tuple[float, ...], section: Section) -> Point:
     return x, z
 
 
-def _rock_line(points: Points, section: Section) -> LineString:
+def _rock_line(points: Points | np.ndarray, section: Section) -> LineString:
     return LineString(section.to_rock(points))

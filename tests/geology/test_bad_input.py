@@ -175,7 +175,7 @@ UNFAULTED = {
     ),
     "two on one side": (
         (FAULT, horizon(LEFT, [(0, 600), (820, 600)], RIGHT)),
-        "pieces 1 and 2 of horizon 'H2' reach fault 'F1' in its footwall, the second near x=820 m, z=600 m; keep one",
+        "pieces 1 and 2 of horizon 'H2' reach fault 'F1' in its footwall, the second near x=820 m, z=600 m, and fewer",
     ),
     "one twice on one side": (
         (FAULT, horizon([(780, 400), (300, 400), (300, 600), (820, 600)], RIGHT)),

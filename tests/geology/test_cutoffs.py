@@ -204,3 +204,41 @@ def test_the_drawing_and_the_report_agree():
     (found,) = sw.Restoration(section, spacing=150).unfault(drawn, bed).stages[0].report.cutoffs
     assert found.throw == pytest.approx(sw.throw(drawn, bed)) == pytest.approx(80)
     assert found.heave == pytest.approx(sw.heave(drawn, bed))
+
+
+def at_depth(*depths):
+    return [(float(on_fault(z)), z) for z in depths]
+
+
+def overturned(slip, reverse=1):
+    """A bed folded about the fault: it meets the fault at 300 and at 700 m, and slip moves the hanging wall down."""
+    upper, lower, upper_moved, lower_moved = at_depth(300, 700, 300 + slip, 700 + slip)
+    return sw.Horizon(
+        [(0, 300), upper][::reverse],
+        [upper_moved, (upper_moved[0] + 500, 500 + slip), lower_moved][::reverse],
+        [(0, 700), lower],
+        name="H",
+    )
+
+
+@pytest.mark.parametrize("slip", [100.0, -80.0, 250.0])
+@pytest.mark.parametrize(("mirrored", "upwards"), [(False, False), (True, True)])
+def test_a_fault_that_cuts_a_bed_twice_has_a_pair_at_each_place(slip, mirrored, upwards):
+    bed = sw.Horizon(*(seen(piece, mirrored) for piece in overturned(slip, -1 if mirrored else 1).pieces), name="H")
+    drawn = fault(mirrored, upwards)
+    found = sorted(sw.cutoffs(drawn, bed), key=lambda cutoff: cutoff.footwall[1])
+    assert [cutoff.footwall[1] for cutoff in found] == pytest.approx([300, 700])
+    assert [cutoff.hanging_wall[1] for cutoff in found] == pytest.approx([300 + slip, 700 + slip])
+    assert [cutoff.throw for cutoff in found] == pytest.approx([slip, slip])
+    assert [cutoff.heave for cutoff in found] == pytest.approx([slip / np.tan(np.radians(DIP))] * 2)
+    for measure in (sw.throw, sw.heave):
+        with pytest.raises(sw.PickError, match=r"at 2 places, near .* take one of cutoffs\(fault, horizon\)"):
+            measure(drawn, bed)
+
+
+def test_an_end_without_a_partner_is_the_one_that_lies_farthest_from_all():
+    """Of three ends in the hanging wall, two belong to the two in the footwall."""
+    ends = [350.0, 500.0, 750.0]
+    pieces = [np.array([point, (WIDTH, point[1])]) for point in at_depth(*ends)]
+    bed = network({"F": fault().points}, *pieces, [(0, 300), at_depth(300)[0]], [(0, 700), at_depth(700)[0]])
+    assert bed.places("F", "H") == [((0, 0), (3, -1)), ((1, 0), None), ((2, 0), (4, -1))]
