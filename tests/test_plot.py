@@ -204,7 +204,7 @@ def test_bars_of_the_histogram_add_up_and_have_the_colours_of_the_map(restored):
 
 def test_the_colour_bar_says_what_it_measures(restored):
     (bar,) = sw.plot.deformation(restored).axes[1].child_axes
-    assert bar.get_xlabel() == "initial area / final area"
+    assert bar.get_xlabel() == "area before / after restoring"
 
 
 def test_a_span_sets_the_ends_of_the_colours(restored):

@@ -13,7 +13,7 @@ SPANS = (1.02, 1.05, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0)  # area ratios at which colo
 
 
 def area_ratio(mesh: Mesh, vertices: ArrayLike) -> np.ndarray:
-    """Initial over final area of each triangle, above 1 where it was compressed (fig. 6d); shape (m,).
+    """Area before over area after the deformation, of each triangle (fig. 6d); above 1 it was compressed; shape (m,).
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def area_ratio_histogram(
     Parameters
     ----------
     ratio, areas : array, shape (m,)
-        Area ratio and initial area of each triangle.
+        Area ratio of each triangle, and its area before.
     bins : int
     span : float, optional
         Largest ratio, above 1; by default the most extreme ratio, or its inverse.

@@ -1,6 +1,7 @@
 """Rigid motion of blocks: the best one to start a solver from, the nearest one to a deformation, and parts of one."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -123,13 +124,35 @@ def part_of_motion(
     return np.column_stack([points.real, points.imag])
 
 
-def nearest_rigid(rest: np.ndarray, moved: np.ndarray, masses: np.ndarray) -> np.ndarray:
-    """Move positions rigidly so that they lie nearest to where they were (Procrustes), shape (n, 2)."""
+@dataclass(frozen=True, eq=False)
+class RigidMotion:
+    """A turn by an angle in radians, from the x axis towards the z axis, that carries ``start`` to ``stop``."""
+
+    angle: float
+    start: np.ndarray
+    stop: np.ndarray
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """Move points, shape (..., 2)."""
+        sine, cosine = np.sin(self.angle), np.cos(self.angle)
+        return np.asarray((points - self.start) @ [[cosine, sine], [-sine, cosine]] + self.stop)
+
+
+def rigid_motion(before: np.ndarray, after: np.ndarray, masses: np.ndarray) -> RigidMotion:
+    """The rigid motion nearest to that of some points (Procrustes); it carries the centre of mass along.
+
+    Parameters
+    ----------
+    before, after : array, shape (n, 2)
+    masses : array, shape (n,)
+    """
     share = masses / masses.sum()
-    centre, centre_moved = share @ rest, share @ moved
-    a, b = moved - centre_moved, rest - centre
-    sine = share @ (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-    cosine = share @ np.sum(a * b, axis=1)
-    length = np.hypot(sine, cosine)
-    turn = np.array([[cosine, sine], [-sine, cosine]]) / length
-    return np.asarray(a @ turn + centre)
+    start, stop = share @ before, share @ after
+    a, b = before - start, after - stop
+    angle = np.arctan2(share @ (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]), share @ np.sum(a * b, axis=1))
+    return RigidMotion(float(angle), start, stop)
+
+
+def nearest_rigid(rest: np.ndarray, moved: np.ndarray, masses: np.ndarray) -> np.ndarray:
+    """Move positions rigidly so that they lie nearest to where they were, shape (n, 2)."""
+    return rigid_motion(moved, rest, masses)(moved)

@@ -183,6 +183,17 @@ def outline(
     return shapely.union_all([covered, *gaps], grid_size=grid).simplify(1e-5 * closing)
 
 
+def new_holes(before: Polygon | MultiPolygon, after: Polygon | MultiPolygon) -> list[Polygon]:
+    """The holes of an outline that it did not have before: all but its largest ones, as many as there were."""
+    old, new = (
+        sorted(
+            (Polygon(ring) for part in shapely.get_parts(shape) for ring in part.interiors), key=lambda hole: hole.area
+        )
+        for shape in (before, after)
+    )
+    return new[: len(new) - len(old)] if len(new) > len(old) else []
+
+
 def _remove_specks(shape: Polygon | MultiPolygon, area: float) -> Polygon | MultiPolygon:
     """Remove the holes and the parts of a shape that are smaller than an area."""
     parts = [

@@ -269,7 +269,7 @@ def cutoffs(fault: Fault, horizon: Horizon) -> tuple[CutOff, ...]:
 def throw(fault: Fault, horizon: Horizon) -> float:
     """Vertical distance between a horizon's two cut-offs at a fault, in the section's unit of z.
 
-    Positive where the hanging wall lies deeper (a normal fault).
+    Positive where the hanging wall lies deeper (a normal fault), negative where it lies higher (a reverse fault).
 
     Raises
     ------

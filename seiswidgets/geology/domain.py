@@ -12,6 +12,7 @@ from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.triangulation import DENSITY, expected_vertices, triangulate, triangulate_to
 from seiswidgets.geology.section import Section
 
+SLACK = 0.1  # of a sample: the largest misfit that counts as met
 SIMPLIFIED = 0.01  # of the mesh spacing, at most
 VERTICES = 2500  # of a mesh whose spacing is not given
 
@@ -46,9 +47,14 @@ class RestorationDomain:
         return self.requested_spacing or float(np.sqrt(self.outline.area * DENSITY / VERTICES))
 
     @property
+    def sample(self) -> float:
+        """Height of a sample, in metres."""
+        return float(self.section.dz * self.section.metres[1])
+
+    @property
     def slack(self) -> float:
         """Largest misfit that counts as met: a tenth of a sample, in metres."""
-        return float(0.1 * self.section.dz * self.section.metres[1])
+        return SLACK * self.sample
 
     @property
     def tolerance(self) -> float:

@@ -12,6 +12,7 @@ from seiswidgets.geology.cutoffs import CutOffPair, separation
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_ends import fault_end_findings
 from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.growth import growth_findings
 from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport
 
 if TYPE_CHECKING:  # both modules import this one
@@ -30,8 +31,9 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
     stretched = [
         finding for name, edges in blocks.beds.items() for finding in _stretched(name, edges, before, after, domain)
     ]
-    ends = fault_end_findings(blocks.network.faults, blocks.slips(), domain)
-    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *ends))
+    faults, slips = blocks.network.faults, blocks.slips()
+    ends, growth = fault_end_findings(faults, slips, domain), growth_findings(faults, slips, domain)
+    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *growth, *ends))
 
 
 def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, domain: RestorationDomain) -> Observations:
@@ -107,16 +109,17 @@ def _seams(
                 point = blocks.mesh.vertices[term.held_points[np.argmax(np.abs(distances))]]
         seams.append(SeamReport(name, gap, overlap, widest))
         if widest > domain.slack:
-            wide.append(_sides_apart(name, widest, point, domain))
+            wide.append(_sides_apart(seams[-1], point, domain))
     return tuple(seams), wide
 
 
-def _sides_apart(name: str, widest: float, point: np.ndarray, domain: RestorationDomain) -> Finding:
+def _sides_apart(seam: SeamReport, point: np.ndarray, domain: RestorationDomain) -> Finding:
     text = (
-        f"the sides of fault {name} are up to {domain.length(widest)} apart or overlapping, most of all near "
-        f"{domain.where(point)}; check the shape of the fault there, and the cut-offs on both its sides"
+        f"the sides of fault {seam.fault} are up to {domain.length(seam.widest)} apart or overlapping, most of all "
+        f"near {domain.where(point)}, with {seam.gap:.2g} m² of gap and {seam.overlap:.2g} m² of overlap; "
+        "check the shape of the fault there, and the cut-offs on both its sides"
     )
-    return Finding("warning", "contact", text, name, domain.position(point))
+    return Finding("warning", "contact", text, seam.fault, domain.position(point))
 
 
 def _cutoffs(

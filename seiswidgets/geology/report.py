@@ -1,5 +1,6 @@
 """The report of a stage: what it has achieved, in numbers with units."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -17,6 +18,11 @@ class CutOffReport:
     throw: float
     heave: float
     misfit: float
+
+    @property
+    def sense(self) -> str:
+        """The sense of the fault there: "normal" where the hanging wall lies deeper, "reverse" where it lies higher."""
+        return "normal" if self.throw >= 0 else "reverse"
 
 
 @dataclass(frozen=True)
@@ -36,6 +42,29 @@ class BedReport:
     horizon: str
     length_change: float
     flatness: float | None = None
+
+
+@dataclass(frozen=True)
+class MotionReport:
+    """Rigid motion of a block, or of a limb beside a fault that dies out, nearest to that of its rock.
+
+    Attributes
+    ----------
+    part : str
+        The faults that bound it, such as "hanging wall of F1".
+    rotation : float
+        In degrees, positive clockwise as the section is drawn, in true proportions.
+    dx, dz : float
+        Motion of its centre of area, in the units of x and z.
+    where : (x, z)
+        That centre before the step, in the section's units.
+    """
+
+    part: str
+    rotation: float
+    dx: float
+    dz: float
+    where: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -69,19 +98,26 @@ class Report:
     flipped : int
         Number of triangles turned over: always 0, since a stage that would turn any is refused.
     area_ratio : dict of int to float
-        Percentiles, by area, of initial over final area; above 1 is compression.
-    overlap : float
-        Area of rock that lies on other rock after the step, in square metres; there the inverse is not unique.
+        Percentiles, by area, of the area before over the area after the step: above 1, rock was compressed by
+        restoring it, so that it was dilated in nature.
+    overlap, gap : float
+        Area of rock that lies on other rock after the step, where the inverse is not unique, and of holes that the step
+        has opened between the blocks; in square metres.
     cutoffs : tuple of CutOffReport
         Throw in the unit of z and heave in that of x, before; the misfit in metres, after.
     seams : tuple of SeamReport
         In square metres and metres.
     beds : tuple of BedReport
         Flatness in the unit of z.
+    motions : tuple of MotionReport
+        Rigid motion of each block or limb, the largest first.
     findings : tuple of Finding
         Observations worth showing, problems first: a solver that did not settle; cut-offs, contacts and levels that
-        are more than a tenth of a sample off; rock on rock; beds that changed their length; faults that end inside.
+        are more than a tenth of a sample off; rock on rock, and gaps; beds that changed their length; faults that end
+        inside, or whose tip the section folds about; offsets that grow downwards.
     x_unit, z_unit : str
+    sample : float
+        Height of a sample, in metres.
     """
 
     kind: str
@@ -97,45 +133,67 @@ class Report:
     flipped: int
     area_ratio: dict[int, float]
     overlap: float = 0.0
+    gap: float = 0.0
     cutoffs: tuple[CutOffReport, ...] = ()
     seams: tuple[SeamReport, ...] = ()
     beds: tuple[BedReport, ...] = ()
+    motions: tuple[MotionReport, ...] = ()
     findings: tuple[Finding, ...] = ()
     x_unit: str = "m"
     z_unit: str = "m"
+    sample: float = 1.0
 
     @property
     def unmet(self) -> tuple[str, ...]:
         """Texts of the findings about constraints that gave way: cut-offs, contacts, levels, lengths and room."""
         return tuple(finding.text for finding in self.findings if finding.kind in CONSTRAINTS)
 
+    @property
+    def verdict(self) -> str:
+        """One sentence: whether the solver settled, what it achieved, and the worst problem or warning."""
+        return verdict([self])
+
     def rows(self) -> list[tuple[str, str]]:
-        """Return the report line by line, each a label and a text with its unit; findings follow the first line."""
-        outcome = "settled" if self.converged else "did NOT settle"
+        """Return the report line by line, each a label and a text with its unit.
+
+        The verdict comes first, then the other findings, throw and heave, beds, areas and motions; the solver last.
+        """
+        rows = [(f"{self.kind} {', '.join(self.picks)}", self.verdict)]
+        rows += [(finding.severity, finding.text) for finding in self.findings if finding is not worst(self.findings)]
+        rows += [(f"{cutoff.horizon} at {cutoff.fault}", self._offset(cutoff)) for cutoff in self.cutoffs]
+        rows += [(f"horizon {bed.horizon}", self._bed(bed)) for bed in self.beds]
+        percentiles = ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())
+        rows.append(("area before / after", f"{percentiles}; above 1, restoring compressed the rock"))
+        rows.append(("overlap and gaps", f"{self.overlap:.3g} m² of rock on other rock, {self.gap:.3g} m² of gaps"))
+        rows += [("motion", self._motion(motion)) for motion in self.motions]
+        return rows + self._solver_rows()
+
+    def _offset(self, cutoff: CutOffReport) -> str:
+        return (
+            f"{cutoff.sense}: throw {cutoff.throw:.4g} {self.z_unit}, heave {cutoff.heave:.4g} {self.x_unit}; "
+            f"cut-offs now {cutoff.misfit:.2g} m apart"
+        )
+
+    def _bed(self, bed: BedReport) -> str:
+        level = "" if bed.flatness is None else f", {bed.flatness:.2g} {self.z_unit} RMS from the datum"
+        return f"bed length {bed.length_change:+.2%}{level}"
+
+    def _motion(self, motion: MotionReport) -> str:
+        turn = f"{abs(motion.rotation):.1f}° {'clockwise' if motion.rotation >= 0 else 'anticlockwise'}"
+        shift = f"{motion.dx:+.3g} {self.x_unit} in x and {motion.dz:+.3g} {self.z_unit} in z"
+        return f"{motion.part}: turned by {turn}, moved by {shift}"
+
+    def _solver_rows(self) -> list[tuple[str, str]]:
         iterations = f"{self.iterations} iterations, {self.factorisations} factorisations, {self.seconds:.2f} s"
-        rows = [
-            (f"{self.kind} {', '.join(self.picks)}", f"{self.solver}: {outcome} in {iterations}"),
-            *((finding.severity, finding.text) for finding in worst_first(self.findings)),
+        return [
+            *(
+                (f"fault {seam.fault}", f"gap {seam.gap:.3g} m², overlap {seam.overlap:.3g} m² before welding")
+                for seam in self.seams
+            ),
+            ("solver", f"{self.solver}: {'settled' if self.converged else 'did NOT settle'} in {iterations}"),
             ("mesh", f"{self.vertices} vertices, {self.triangles} triangles, {self.flipped} flipped"),
             ("energy (m²)", ", ".join(f"{name} {value:.2g}" for name, value in self.energy.items())),
-            ("area ratio", ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())),
         ]
-        rows += [
-            (
-                f"{cutoff.horizon} at {cutoff.fault}",
-                f"throw {cutoff.throw:.4g} {self.z_unit}, heave {cutoff.heave:.4g} {self.x_unit}; "
-                f"cut-offs now {cutoff.misfit:.2g} m apart",
-            )
-            for cutoff in self.cutoffs
-        ]
-        rows += [
-            (f"fault {seam.fault}", f"gap {seam.gap:.3g} m², overlap {seam.overlap:.3g} m², widest {seam.widest:.2g} m")
-            for seam in self.seams
-        ]
-        for bed in self.beds:
-            level = "" if bed.flatness is None else f", {bed.flatness:.2g} {self.z_unit} RMS from the datum"
-            rows.append((f"horizon {bed.horizon}", f"bed length {bed.length_change:+.2%}{level}"))
-        return rows
 
     def __str__(self) -> str:
         rows = self.rows()
@@ -143,15 +201,43 @@ class Report:
         return "\n".join(f"{label:<{width}}  {text}" for label, text in rows)
 
     def _repr_html_(self) -> str:
-        cells = (
-            f'<tr><th style="{_label_style(label)}">{escape(label)}</th>'
-            f'<td style="text-align: left">{escape(text)}</td></tr>'
-            for label, text in self.rows()
-        )
+        (label, text), *rows = self.rows()
+        grave = worst(self.findings)
+        cells = [_row(label, text, grave.severity if grave else ""), *(_row(*row, row[0]) for row in rows)]
         return f"<table>{''.join(cells)}</table>"
 
 
-def _label_style(label: str) -> str:
-    """CSS of a row's label; findings are coloured by severity."""
-    fill, ink = COLOURS.get(label, ("", ""))
-    return "text-align: left" + (f"; background: {fill}; color: {ink}" if fill else "")
+def verdict(reports: Sequence[Report]) -> str:
+    """One sentence on some stages: whether all settled, what they achieved, and the worst problem or warning."""
+    outcome = "Settled" if all(report.converged for report in reports) else "Not settled"
+    grave = worst(worst_first(finding for report in reports for finding in report.findings))
+    doubt = [f"but {grave.text.removesuffix('.')}"] if grave else []
+    return "; ".join([outcome, *achievements(reports), *doubt]) + ("" if doubt and doubt[0].endswith("?") else ".")
+
+
+def achievements(reports: Sequence[Report]) -> list[str]:
+    """How well cut-offs meet and the last flattened horizon lies, in samples."""
+    misfits = [cutoff.misfit / report.sample for report in reports for cutoff in report.cutoffs]
+    level = [bed for bed in reports[-1].beds if bed.flatness is not None]  # later stages may bend earlier beds
+    return [
+        *([f"cut-offs meet to {_rounded(max(misfits))} samples"] if misfits else []),
+        *(f"{bed.horizon} lies on its datum to {_rounded(bed.flatness or 0)} {reports[-1].z_unit}" for bed in level),
+    ]
+
+
+def _rounded(value: float) -> str:
+    return f"{max(value, 0.01):.1g}"
+
+
+def worst(findings: Sequence[Finding]) -> Finding | None:
+    """The first of the gravest findings; None if all are notes."""
+    first = next(iter(worst_first(findings)), None)
+    return first if first and first.severity != "note" else None
+
+
+def _row(label: str, text: str, severity: str) -> str:
+    """HTML of a row; the label of a finding is coloured by its severity."""
+    fill, ink = COLOURS.get(severity, ("", ""))
+    style = "text-align: left" + (f"; background: {fill}; color: {ink}" if fill else "")
+    cells = f'<th style="{style}">{escape(label)}</th><td style="text-align: left">{escape(text)}</td>'
+    return f"<tr>{cells}</tr>"

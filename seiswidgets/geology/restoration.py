@@ -16,6 +16,7 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage
 from seiswidgets.geology.picks import Fault, Horizon
+from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
 from seiswidgets.geology.stage import Stage
@@ -179,6 +180,11 @@ class Restoration:
         return self.original.from_rock(points)
 
     @property
+    def verdict(self) -> str:
+        """One sentence on all stages: whether they settled, what they achieved, and the worst problem or warning."""
+        return verdict([stage.report for stage in self.stages]) if self.stages else "Nothing has been restored yet."
+
+    @property
     def settled(self) -> bool:
         """True if the solver settled in every stage."""
         return all(stage.report.converged for stage in self.stages)
@@ -252,7 +258,9 @@ class Restoration:
         return replace(self, stages=self.stages[:whole] + part)
 
     def area_ratio_at(self, points: ArrayLike) -> np.ndarray:
-        """Initial over final area, of all stages together, at points of the original section; NaN outside.
+        """Present-day over restored area, of all stages together, at points of the original section; NaN outside.
+
+        Above 1, rock was compressed by restoring it, so that it was dilated in nature.
 
         Parameters
         ----------

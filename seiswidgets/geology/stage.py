@@ -13,11 +13,12 @@ from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.core.rigid import part_of_motion
-from seiswidgets.core.seams import outline
+from seiswidgets.core.seams import new_holes, outline
 from seiswidgets.core.solver import Solution
 from seiswidgets.errors import Keyword, Text
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
+from seiswidgets.geology.motion import observe_motion
 from seiswidgets.geology.report import Observations, Report
 from seiswidgets.geology.segments import horizon_segments, split_at_faults
 
@@ -120,7 +121,19 @@ class Stage:
         percentiles = deformation.weighted_percentiles(self.area_ratio, self.mesh.areas, PERCENTS)
         areas = triangle_areas(self.vertices, self.mesh.triangles)
         overlap = max(0.0, float(areas.sum() - self.outline.area))
-        findings = (*self._unsettled(), *observations.findings, *self._overlapping(overlap))
+        holes = new_holes(self.domain.outline, self.outline)
+        gap = sum(hole.area for hole in holes)
+        names = outcome.picks if self.faults else ()
+        motions, folds = observe_motion(
+            self.mesh, self.vertices, dict(zip(names, self.faults, strict=False)), self.domain
+        )
+        findings = (
+            *self._unsettled(),
+            *folds,
+            *observations.findings,
+            *self._overlapping(overlap),
+            *self._gaping(holes),
+        )
         return Report(
             kind=self.kind,
             picks=outcome.picks,
@@ -135,12 +148,15 @@ class Stage:
             flipped=int(np.sum(self.area_ratio <= 0)),
             area_ratio=dict(zip(PERCENTS, percentiles.tolist(), strict=True)),
             overlap=overlap,
+            gap=gap,
             cutoffs=observations.cutoffs,
             seams=observations.seams,
             beds=observations.beds,
+            motions=motions,
             findings=worst_first(findings),
             x_unit=self.domain.section.x_unit,
             z_unit=self.domain.section.z_unit,
+            sample=self.domain.sample,
         )
 
     def _unsettled(self) -> tuple[Finding, ...]:
@@ -177,6 +193,19 @@ class Stage:
         )
         return (Finding("problem", "overlap", text, where=where),)
 
+    def _gaping(self, holes: Sequence[Polygon]) -> tuple[Finding, ...]:
+        """A finding if the step has opened holes, at the largest."""
+        area = sum(hole.area for hole in holes)
+        if area <= self.domain.slack * self.spacing:
+            return ()
+        largest = max(holes, key=lambda hole: hole.area).representative_point().coords[0]
+        point = self.mesh.vertices[np.argmin(np.hypot(*(self.vertices - largest).T))]
+        text = (
+            f"{area:.3g} m² of gaps have opened between the blocks, the largest next to the rock from near "
+            f"{self.domain.where(point)}; check the throws and the shape of the faults there"
+        )
+        return (Finding("warning", "gap", text, where=self.domain.position(point)),)
+
     def part(self, share: float) -> "Stage":
         """The step carried out in part, for a share from 0 to 1."""
         vertices = part_of_motion(self.mesh.vertices, self.vertices, self.mesh.blocks, self.mesh.vertex_areas, share)
@@ -194,7 +223,11 @@ class Stage:
 
     @cached_property
     def area_ratio(self) -> np.ndarray:
-        """Initial over final area of each triangle (the paper's fig. 6d), shape (m,); above 1 is compression."""
+        """Area before over area after the step, of each triangle (the paper's fig. 6d), shape (m,).
+
+        Above 1, rock was compressed by restoring it, so that it was dilated in nature: the ratio equals the deformed
+        area over the undeformed one. The change by the restoration itself is its reciprocal.
+        """
         return deformation.area_ratio(self.mesh, self.vertices)
 
     @cached_property

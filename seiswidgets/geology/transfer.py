@@ -56,7 +56,7 @@ def carried_point(original: Section, stages: Sequence[Stage], fixed: ArrayLike) 
 
 
 def area_ratio_at(stages: Sequence[Stage], points: np.ndarray) -> np.ndarray:
-    """Initial over final area, of all stages together, at points of the rock before the first one; shape (n,).
+    """Present-day over restored area, of all stages together, at points of the rock before the first one; shape (n,).
 
     Parameters
     ----------

@@ -187,4 +187,4 @@ def _draw_colour_bar(ax: Axes, colours: ScalarMappable, span: float) -> None:
     bar.ax.xaxis.set_minor_locator(NullLocator())
     bar.ax.xaxis.set_major_locator(FixedLocator([1 / span, 1, span]))
     bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
-    bar.set_label("initial area / final area")
+    bar.set_label("area before / after restoring")

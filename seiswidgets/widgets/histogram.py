@@ -24,7 +24,7 @@ TICK_DISTANCE = 0.09  # least distance between two ticks, as a share of the axis
 
 
 class DeformationHistogram(WithParts, anywidget.AnyWidget):
-    """The distribution of the area ratio, initial over final, in the colours of the deformation map.
+    """The distribution of the area ratio, present-day over restored, in the colours of the deformation map.
 
     A drag brushes a range of bars, a click one bar, Shift+click extends the range; a double click clears it. With the
     keyboard: the left and right arrow, Home and End brush one bar, with Shift they extend the range; Escape clears it.

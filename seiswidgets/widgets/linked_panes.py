@@ -46,7 +46,7 @@ class Reading:
     amplitude : float
         Amplitude of the nearest sample of the original.
     ratio : float
-        Area ratio, initial over final, of all stages together.
+        Area ratio, present-day over restored, of all stages together.
     """
 
     original: Point

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.report import achievements
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.widgets.severity import GOOD
 
@@ -11,6 +12,9 @@ TITLES = {
     "cut-off": "cut-offs apart",
     "contact": "fault sides apart",
     "overlap": "rock on rock",
+    "fold": "folds about a fault's tip",
+    "gap": "gaps between blocks",
+    "growth": "offset grows downwards",
     "fault end": "fault end",
     "bed length": "bed length changed",
     "datum": "off its datum",
@@ -46,7 +50,8 @@ class Verdict:
         findings = restoration.findings
         grave = [finding for finding in findings if finding.severity != "note"]
         if not grave:
-            return cls(GOOD, "Settled", _achievements(restoration), _notes(len(findings)), findings)
+            text = "; ".join(achievements([stage.report for stage in restoration.stages]))
+            return cls(GOOD, "Settled", text and f"{text[0].upper()}{text[1:]}.", _notes(len(findings)), findings)
         worst = grave[0]
         title = f"check: {title_of(worst)}" if worst.severity == "warning" else title_of(worst)
         rest = f"and {len(grave) - 1} more (see Report)" if grave[1:] else ""
@@ -65,14 +70,6 @@ class Verdict:
 def title_of(finding: Finding) -> str:
     """Name a finding in two or three words."""
     return TITLES.get(finding.kind, finding.kind)
-
-
-def _achievements(restoration: Restoration) -> str:
-    """List the achievements: cut-offs that meet, and horizons that are level."""
-    reports = [stage.report for stage in restoration.stages]
-    level = [bed.horizon for bed in reports[-1].beds if bed.flatness is not None]  # later stages may bend earlier beds
-    meet = ["Cut-offs meet."] if any(report.cutoffs for report in reports) else []
-    return " ".join([*meet, *(f"{name} lies on its datum." for name in level)])
 
 
 def _notes(count: int) -> str:

@@ -4,7 +4,7 @@ import shapely
 
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import triangle_areas
-from seiswidgets.core.seams import outline, weld_seams
+from seiswidgets.core.seams import new_holes, outline, weld_seams
 from tests.core.meshes import BOX, PLANAR, arc, cut_along, rotated
 
 CENTRE = (1500.0, -300.0)  # of the arcs
@@ -83,3 +83,11 @@ def test_narrow_gaps_are_closed_and_wide_ones_stay():
         rock = outline(mesh, vertices, closing=0.5)
         assert len(shapely.get_parts(rock)) == parts
         assert rock.area >= BOX.area * (1 - 1e-9)
+
+
+def test_new_holes_are_those_that_were_not_there_before():
+    square, holed = shapely.box(0, 0, 10, 10), shapely.box(0, 0, 10, 10) - shapely.box(2, 2, 6, 6)
+    gaping = holed - shapely.box(8, 4, 9, 6)
+    assert [hole.area for hole in new_holes(square, gaping)] == [2, 16]
+    assert [hole.area for hole in new_holes(holed, gaping)] == [2]
+    assert new_holes(holed, holed) == []

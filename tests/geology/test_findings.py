@@ -243,3 +243,42 @@ def test_worst_first():
 def test_a_severity_that_there_is_not():
     with pytest.raises(ValueError, match=r"severity must be one of .* but is 'fatal'"):
         Finding("fatal", "datum", "")
+
+
+@pytest.mark.parametrize(("top", "angle"), [(160.0, 26), (0.0, None)])
+def test_a_section_that_folds_about_the_tip_of_a_fault(top, angle):
+    """A long section with a large throw below a young cover: the limbs turn until the fault's lower end matches."""
+    section = sw.Section(np.zeros((241, 801), np.float32), 25.0, 4.0)
+    line = sw.Fault([(12000.0 - 1.54 * (z - 160.0), z) for z in (top, 960.0)], name="F")
+    (left, right) = ((12000.0 - 1.54 * (z - 160.0), z) for z in (820.0, 490.0))
+    bed = sw.Horizon([(0.0, 820.0), left], [right, (20000.0, 490.0)], name="H")
+    stage = sw.Restoration(section, 200.0).unfault(line, bed).stages[-1]
+    folds = of_kind(stage.report.findings, "fold")
+    assert bool(folds) == (angle is not None)
+    hanging, foot = sorted(stage.report.motions, key=lambda motion: motion.where[0])
+    assert (hanging.part, foot.part) == ("hanging wall of F", "footwall of F")
+    if angle is None:
+        assert foot.rotation == pytest.approx(hanging.rotation, abs=0.1)
+        assert foot.dx - hanging.dx == pytest.approx(-1.54 * 330, rel=0.02)
+        return
+    assert foot.rotation - hanging.rotation == pytest.approx(angle, abs=1.5)
+    assert folds[0].severity == "problem"
+    words = f"the section folds by {foot.rotation - hanging.rotation:.0f} degrees about the tip of F: is the young"
+    assert folds[0].text.startswith(words)
+    np.testing.assert_allclose(folds[0].where, (12000, 160), rtol=1e-6)
+    assert stage.report.verdict.startswith("Settled; cut-offs meet to 0.0")
+    assert f" samples; but {words}" in stage.report.verdict
+
+
+@pytest.mark.parametrize(("top", "severity"), [(0.0, "warning"), (300.0, "note")])
+def test_an_offset_that_grows_downwards(top, severity):
+    """Growth is suspected where the fault reaches the surface; towards a tip, slip falls to 0 anyway."""
+    beds = [
+        sw.Horizon([(0, z), at(z)], [at(z) + slip * STEEP, (WIDTH, (at(z) + slip * STEEP)[1])], name=f"H{number}")
+        for number, (z, slip) in enumerate(((700.0, 50.0), (1000.0, 90.0), (1300.0, 130.0)), 1)
+    ]
+    fault = sw.Fault([at(top), at(DEPTH)], name="F1")
+    (growth,) = of_kind(unfaulted(fault, beds).findings, "growth")
+    assert (growth.severity, growth.pick) == (severity, "F1")
+    assert growth.text.startswith("the offset along F1 grows downwards from 50 m to 130 m")
+    assert not of_kind(unfaulted(fault, beds[:1]).findings, "growth")

@@ -64,7 +64,7 @@ def test_an_empty_app_says_what_to_do(new_app, case):
     assert app.restoration.stages == ()
     app.interpretation = case.interpretation
     assert app.wait(LONG)
-    assert app.status.text.startswith("Settled. Cut-offs meet.")
+    assert app.status.text.startswith("Settled. Cut-offs meet to ")
     assert len(app.restoration.stages) == 2
 
 
@@ -229,7 +229,7 @@ def test_what_is_wrong_is_said_in_the_app_and_beside_the_pick(app, case):
     assert "seiswidgets-outdated" in app.panes.restored._dom_classes
     app.interpretation = case.interpretation
     assert app.wait(LONG)
-    assert app.status.text.startswith("Settled. Cut-offs meet.")
+    assert app.status.text.startswith("Settled. Cut-offs meet to ")
     assert "seiswidgets-outdated" not in app.panes.restored._dom_classes
 
 

@@ -22,6 +22,7 @@ from seiswidgets.widgets.verdict import TITLES, Verdict
 from tests.widgets.hands import appear, drag_to, press, release
 
 LONG = 60  # seconds until a restoration must be done
+GOOD_TEXT = "Settled. Cut-offs meet to 0.01 samples."
 NASTY = "<img src=x onerror=alert(1)>"
 APART = sw.Finding("problem", "cut-off", "the cut-offs of H1 at F1 are 12 m apart", "H1")
 LOOSE = sw.Finding("warning", "contact", "the sides of fault F1 are 3 m apart", "F1")
@@ -63,14 +64,14 @@ def judged(restoration, *findings):
 def test_a_good_result_is_said_to_be_good(unfaulted):
     verdict = Verdict.of(unfaulted)
     assert verdict.is_good
-    assert str(verdict) == "Settled. Cut-offs meet."
-    assert str(judged(unfaulted, TOLD)) == "Settled. Cut-offs meet. 1 note (see Report)"
+    assert str(verdict) == GOOD_TEXT
+    assert str(judged(unfaulted, TOLD)) == f"{GOOD_TEXT} 1 note (see Report)"
 
 
 def test_a_level_bed_is_praised_only_until_the_next_stage(case, unfaulted):
     first, _, third = case.interpretation.horizons
     flat = unfaulted.flatten(first)
-    assert str(Verdict.of(flat)) == "Settled. Cut-offs meet. H1 lies on its datum."
+    assert str(Verdict.of(flat)) == "Settled. Cut-offs meet to 0.01 samples; H1 lies on its datum to 0.01 m."
     assert "H1" not in str(Verdict.of(flat.flatten(third)))
 
 
@@ -157,8 +158,9 @@ def test_the_mark_is_escaped(unfaulted):
 def test_findings_come_first_in_the_report(unfaulted):
     found = with_report(unfaulted, findings=(LOOSE, replace(APART, text=NASTY)))
     report = found.stages[0].report
-    assert [row[0] for row in report.rows()[1:3]] == ["problem", "warning"]
-    assert "background: #d32f2f" in report._repr_html_().split("<tr>")[2]
+    assert report.rows()[0][1].endswith(f"; but {NASTY}.")
+    assert report.rows()[1] == ("warning", LOOSE.text)
+    assert ["background: #d32f2f" in row for row in report._repr_html_().split("<tr>")[1:3]] == [True, False]
     reports = Reports()
     reports.show(found)
     page = reports.page.value
@@ -219,7 +221,7 @@ def test_a_result_that_did_not_settle_does_not_look_like_a_good_one(new_app, uns
 
 
 def test_contradicting_picks_are_a_problem_in_the_app(app, case):
-    assert app.status.text == "Settled. Cut-offs meet."
+    assert app.status.text == GOOD_TEXT
     first, _, third = case.interpretation.horizons
     falling = sw.Horizon(first.pieces[0], third.pieces[1], name="falling")
     rising = sw.Horizon(third.pieces[0], first.pieces[1], name="rising")
@@ -231,7 +233,7 @@ def test_contradicting_picks_are_a_problem_in_the_app(app, case):
     assert "falling at fault F1" in message(app.picker, "horizon").value
     app.interpretation = case.interpretation
     assert app.wait(LONG)
-    assert app.status.text == "Settled. Cut-offs meet."
+    assert app.status.text == GOOD_TEXT
     assert not app.panes.restored.badge.severity
     assert message(app.picker, "horizon").layout.display == "none"
 

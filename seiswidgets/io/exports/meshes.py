@@ -19,8 +19,8 @@ def save_mesh(restored: Restoration, path: str | PathLike, stage: int = -1) -> N
     """Write the mesh before a stage, with the deformation by the stage, as VTK's .vtu or .vtk (with meshio).
 
     Points are (x, -z, 0) in metres of rock, so that the mesh is upright. Each has its ``displacement`` by the stage,
-    in the same axes; warping the mesh by it shows the restored mesh. Each triangle has its ``area_ratio`` (initial over
-    final area), ``larger_stretch`` and ``smaller_stretch`` (length after over before).
+    in the same axes; warping the mesh by it shows the restored mesh. Each triangle has its ``area_ratio`` (area
+    before over after), ``larger_stretch`` and ``smaller_stretch`` (length after over before).
 
     Parameters
     ----------

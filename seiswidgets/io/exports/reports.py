@@ -41,10 +41,11 @@ def save_report(restored: Restoration, path: str | PathLike) -> None:
 def report_as_dict(restored: Restoration) -> dict[str, Any]:
     """The section and the report of each stage, as dictionaries, lists, numbers and strings only.
 
-    The keys are the names of the fields of ``Report``; numbers that are not finite become None.
+    The keys are the names of the fields of ``Report``, and "verdict"; numbers that are not finite become None.
     """
     section = {name: getattr(restored.original, name) for name in SECTION_FIELDS}
-    report: dict[str, Any] = _plain({"section": section, "stages": [asdict(stage.report) for stage in restored.stages]})
+    stages = [{"verdict": stage.report.verdict, **asdict(stage.report)} for stage in restored.stages]
+    report: dict[str, Any] = _plain({"section": section, "verdict": restored.verdict, "stages": stages})
     return report
 
 
@@ -69,8 +70,9 @@ def report_as_html(restored: Restoration) -> str:
             '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">',
             f"<title>Restoration of {title}</title>",
             f"<style>{STYLE}</style>",
-            f"<h1>Restoration of {title}</h1>\n<p>{escape(repr(section))}</p>",
-            *(tables or ["<p>Nothing has been restored yet.</p>"]),
+            f"<h1>Restoration of {title}</h1>\n<p>{escape(restored.verdict)}</p>",
+            f"<p>{escape(repr(section))}</p>",
+            *tables,
             "<p>Restored with seiswidgets: an interpretation, not a measurement.</p>\n</html>\n",
         ]
     )

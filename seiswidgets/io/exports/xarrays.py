@@ -133,7 +133,7 @@ def displacement(restored: Restoration) -> "xarray.Dataset":
     """Displacement and strain by all stages together, at each sample of the original section; NaN outside the mesh.
 
     Variables of dimensions ("z", "x"): ``displacement_x`` and ``displacement_z``, from the original to the restored
-    position, in the section's units; ``area_ratio``, initial over final area, and ``larger_stretch`` and
+    position, in the section's units; ``area_ratio``, present-day over restored area, and ``larger_stretch`` and
     ``smaller_stretch``, length after over before along the principal directions, all in rock.
     ``.to_netcdf(path)`` writes them.
 
@@ -154,7 +154,7 @@ def displacement(restored: Restoration) -> "xarray.Dataset":
     described = {
         "displacement_x": (shift[:, 0], section.x_unit, "displacement along the section"),
         "displacement_z": (shift[:, 1], section.z_unit, "displacement downwards"),
-        "area_ratio": (ratio, "1", "initial area over final area"),
+        "area_ratio": (ratio, "1", "present-day area over restored area"),
         "larger_stretch": (stretches[:, 0], "1", "length after over before, in the direction of largest stretch"),
         "smaller_stretch": (stretches[:, 1], "1", "length after over before, in the direction of smallest stretch"),
     }

@@ -95,7 +95,8 @@ def _count_from_1(progress: StepProgress, steps: int) -> Callable[[int, int, flo
 
 
 def _report_as_text(path: Path, session: Session, restored: Restoration) -> str:
-    parts = [f"{path}: {restored.original!r}", *(f"left out: {problem}" for problem in session.problems)]
+    parts = [f"{path}: {restored.original!r}", restored.verdict]
+    parts += [f"left out: {problem}" for problem in session.problems]
     parts += [str(stage.report) for stage in restored.stages] or ["no step had anything to work on"]
     return "\n\n".join(parts) + "\n"
 

@@ -199,8 +199,8 @@ function appendText(parent, className, attributes, content) {
 // histogram/chart.js
 var MARGIN = { left: 46, right: 22, top: 4, bottom: 38 };
 var WIDE = 400;
-var TITLE = "Area ratio (–): < 1 expansion, > 1 compression";
-var WIDE_TITLE = "Area ratio, initial / final (–): < 1 expansion, > 1 compression";
+var TITLE = "Area ratio (–): > 1, restoring compressed";
+var WIDE_TITLE = "Area, present-day / restored (–): > 1, restoring compressed";
 function drawChart(group, bars, size, brush, mark) {
   const scale = new Scale(bars, size);
   group.replaceChildren();

@@ -7,8 +7,8 @@ import { Scale } from "./scale.js";
 export const MARGIN = { left: 46, right: 22, top: 4, bottom: 38 };
 
 const WIDE = 400; // css pixels from which the whole title fits
-const TITLE = "Area ratio (–): < 1 expansion, > 1 compression";
-const WIDE_TITLE = "Area ratio, initial / final (–): < 1 expansion, > 1 compression";
+const TITLE = "Area ratio (–): > 1, restoring compressed";
+const WIDE_TITLE = "Area, present-day / restored (–): > 1, restoring compressed";
 
 /**
  * Draw the histogram anew.
