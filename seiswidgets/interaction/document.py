@@ -2,11 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any
 
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.drawing import Drawing, PickSelection
+from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection
+
+DRAFT_LINE = "draft line"  # label of an edit of the draft line alone
 
 
 @dataclass(frozen=True)
@@ -113,6 +116,27 @@ class EditHistory:
             self._future.clear()
         self._take(document, document)
 
+    def close_draft(self, closed: Callable[[Document], tuple[Document, PickSelection | None]]) -> None:
+        """Make the edits of the draft line that was just finished edits of its pick, so that undo does not reopen it.
+
+        Parameters
+        ----------
+        closed : callable(Document) -> (Document, PickSelection or None)
+            Finishes the draft line of a document, and selects the pick.
+        """
+        begun = len(self._past)
+        while begun and self._past[begun - 1].document.drawing.draft:
+            begun -= 1
+        older, edits = self._past[: max(0, begun - 1)], self._past[max(0, begun - 1) :]
+        entries = [Entry(entry.label, *closed(entry.document)) if entry.document.drawing.draft else entry for entry in edits]
+        documents = [*(entry.document for entry in entries), self._committed]
+        self._past = older + [
+            replace(entry, label=edit_label(before, after) if entry.label == DRAFT_LINE else entry.label)
+            for entry, (before, after) in zip(entries, pairwise(documents), strict=True)
+            if before != after
+        ]
+        self._changed()
+
     def undo(self, selection: PickSelection | None = None) -> Entry | None:
         """Undo the last edit; return the entry before it, or None if there is no edit."""
         return self._travel(self._past, self._future, selection)
@@ -152,7 +176,23 @@ def edit_label(before: Document, after: Document) -> str:
         return "held point"
     old, new = ({(pick.kind, pick.name): pick for pick in one.drawing.picks} for one in (before, after))
     changed = {key for key in old.keys() & new.keys() if old[key] != new[key]}
+    if len(changed) == 1 and old.keys() == new.keys():
+        (key,) = changed
+        return f"{_change(old[key], new[key])} {key[1]}"
     for verb, keys in (("draw", new.keys() - old.keys()), ("delete", old.keys() - new.keys()), ("change", changed)):
         if keys:
             return f"{verb} {', '.join(name for _, name in sorted(keys))}"
-    return "draft line"
+    return DRAFT_LINE
+
+
+def _change(before: Pick, after: Pick) -> str:
+    """Name the change of a pick's pieces, with the preposition that the pick's name follows."""
+    pieces = len(after.pieces) - len(before.pieces)
+    vertices = sum(map(len, after.pieces)) - sum(map(len, before.pieces))
+    if pieces > 0 and set(before.pieces) <= set(after.pieces):
+        return "add a piece to"
+    if pieces < 0 and set(after.pieces) <= set(before.pieces):
+        return "delete a piece of"
+    if pieces or before.pieces == after.pieces:
+        return "change"
+    return "move a vertex of" if not vertices else "add to" if vertices > 0 else "delete a vertex of"

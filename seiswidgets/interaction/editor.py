@@ -23,7 +23,7 @@ Delete, Backspace      remove the selected vertex; else the last one of the draf
                        one clicked, or drawn last); else, in look mode, the selected pick; in block mode, the held point
 Escape                 cancels a drag; else the draft line; else the selection; else goes back to look mode
 L, F, H, B             modes
-Ctrl+Z                 undo; Ctrl+Shift+Z, Ctrl+Y: redo
+Ctrl+Z                 undo, a finished line vertex by vertex; Ctrl+Shift+Z, Ctrl+Y: redo
 =====================  ==============================================================================================
 
 Tab is never consumed, so that it leaves the canvas.
@@ -36,7 +36,7 @@ import numpy as np
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.interaction.cutoff_handles import CutOffHandle, cutoff_handles
-from seiswidgets.interaction.document import EditHistory, Entry
+from seiswidgets.interaction.document import Document, EditHistory, Entry
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Point
 from seiswidgets.interaction.editor_state import MODES, EditorState, Tools
 from seiswidgets.interaction.gestures import DoubleClick, Gesture, Key, Move, Press, Release
@@ -227,6 +227,8 @@ class PickEditor:
             self.history.amend(**changes)
         else:
             self.history.edit(label, selection, **changes)
+            if before.drawing.draft and not state.drawing.draft and state.drawing == before.finish().drawing:
+                self.history.close_draft(_closed)
         return True
 
     def _travel(self, travel: Callable[[PickSelection | None], Entry | None]) -> bool:
@@ -236,3 +238,10 @@ class PickEditor:
             return False
         self._state = self._state.change(document=entry.document, selection=entry.selection)
         return True
+
+
+def _closed(document: Document) -> tuple[Document, PickSelection | None]:
+    """Finish the draft line of a document, or drop it if it is a single point; select its pick."""
+    state = EditorState(document).finish()
+    state = state.cancel() if state.drawing.draft else state
+    return state.document, state.selection

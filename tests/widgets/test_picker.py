@@ -169,13 +169,22 @@ def test_picks_to_start_with_cannot_be_undone(section):
     assert picker.buttons["undo"].disabled
 
 
-def test_a_fault_drawn_after_a_horizon_is_one_edit(drawn):
+def test_undoing_a_finished_line_removes_its_last_edit_and_does_not_reopen_it(drawn):
     drawn.mode = "fault"
-    draw(drawn.pane, *(np.array(FAULT) + [200, 0]))
+    line = np.array([*FAULT, (FAULT[-1][0], FAULT[-1][1] - 100)]) + [200, 0]
+    draw(drawn.pane, *line)
     assert [pick.name for pick in drawn.drawing.picks] == ["F1", "H1", "F2"]
+    assert drawn.buttons["undo"].tooltip == "Undo: add to F2 (Ctrl+Z)"
+    keys(drawn.pane, "z", modifiers=["ctrl"])
+    np.testing.assert_allclose(drawn.drawing.pick("fault", "F2").pieces[0], line[:-1])
+    assert drawn.drawing.draft is None
+    for _ in line[2:-1]:
+        keys(drawn.pane, "z", modifiers=["ctrl"])
+    assert drawn.buttons["undo"].tooltip == "Undo: draw F2 (Ctrl+Z)"
     keys(drawn.pane, "z", modifiers=["ctrl"])
     assert [pick.name for pick in drawn.drawing.picks] == ["F1", "H1"]
-    np.testing.assert_allclose(drawn.drawing.draft.points, np.array(FAULT) + [200, 0])
+    keys(drawn.pane, *"y" * len(line), modifiers=["ctrl"])
+    np.testing.assert_allclose(drawn.drawing.pick("fault", "F2").pieces[0], line)
 
 
 def test_dots_of_a_dense_line_keep_apart_and_the_chosen_one_is_among_them(section):

@@ -90,13 +90,13 @@ def test_one_of_each_edit_is_undone_and_redone(app, tmp_path):
         documents.append(app.workspace.document)
         counts.append(history.undo_count)
         assert undo.tooltip == f"Undo: {label} (Ctrl+Z)"
-    assert (counts[1], counts[-1] - counts[1]) == (3, len(EDITS) - 1)  # the fault is drawn in three clicks
+    assert (counts[1], counts[-1] - counts[1]) == (1, len(EDITS) - 1)
     for index in range(len(EDITS), 0, -1):
         for _ in range(counts[index] - counts[index - 1]):
             undo.click()
         assert app.workspace.document == documents[index - 1]
     assert undo.disabled
-    assert redo.tooltip.endswith(": draft line (Ctrl+Y)")
+    assert redo.tooltip.endswith(": draw F1 (Ctrl+Y)")
     for index in range(1, len(documents)):
         for _ in range(counts[index] - counts[index - 1]):
             redo.click()
@@ -129,4 +129,4 @@ def test_undo_names_what_the_mouse_did_to_a_pick(app, tmp_path):
     for points, modifiers in (([(2200.0, 700.0)], []), ([(2200.0, 700.0)], ["ctrl"]), ([(2000.0, 200.0)], ["ctrl"])):
         click(pane, *points, modifiers=modifiers)
         labels.append(app.workspace.history.next_undo.label)
-    assert labels == ["change F1", "change F1", "delete F1"]
+    assert labels == ["add to F1", "delete a vertex of F1", "delete F1"]
