@@ -238,7 +238,7 @@ class RestorationApp(WithParts, VBox):
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
         parts = [self.picker.toolbar, self.status, self.session_bar, self.panes, self.session_bar.news, below]
-        return [*parts, Names(), KeyGuard()]
+        return [*parts, Names(), KeyGuard(self.picker.hotkeys)]
 
     def _bind(self) -> None:
         workspace, editor = self.workspace, self.picker.editor

@@ -1,6 +1,7 @@
 """A pane to draw faults and horizons in, with its tools and the list of picks."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, ToggleButton, ToggleButtons, VBox
@@ -112,7 +113,7 @@ class Picker(WithParts, VBox):
         self.list = PicksList(self.editor, self.refresh)
         self.buttons = {name: self._button(name) for name in ACTIONS}
         self.toolbar = self._make_toolbar()
-        super().__init__([KeyGuard(), self.toolbar, self.pane, self.list])
+        super().__init__([KeyGuard(self.hotkeys), self.toolbar, self.pane, self.list])
         keep_order(self)
         self._bind()
         self.attach(self.pane)
@@ -126,6 +127,12 @@ class Picker(WithParts, VBox):
     def drawing(self) -> Drawing:
         """All picks with their looks, invalid ones included, and the draft line."""
         return self.workspace.drawing
+
+    @property
+    def hotkeys(self) -> dict[str, Callable[[], None]]:
+        """Actions of the keys that undo and redo, wherever the focus is."""
+        undo, redo = partial(self._act, "undo"), partial(self._act, "redo")
+        return {"Ctrl+z": undo, "Ctrl+Z": redo, "Ctrl+y": redo, "Ctrl+Y": redo}
 
     def attach(self, pane: SectionPane) -> None:
         """Draw in another pane too, by its own projection."""

@@ -18,8 +18,18 @@ function accessibleName(control) {
   return (icon && PLAY_BUTTONS[icon]) || label?.textContent?.trim() || withTooltip?.title;
 }
 
+/**
+ * ipywidgets writes "null" as the tooltip of a label that has none.
+ *
+ * @param {HTMLElement} box
+ */
+function dropEmptyTooltips(box) {
+  for (const label of box.querySelectorAll("[title=null]")) label.removeAttribute("title");
+}
+
 /** @param {HTMLElement} box */
 function nameControls(box) {
+  dropEmptyTooltips(box);
   for (const control of /** @type {NodeListOf<Control>} */ (box.querySelectorAll(CONTROLS))) {
     const name = accessibleName(control);
     const isLabelled = [...(control.labels ?? [])].some((label) => label.textContent?.trim());

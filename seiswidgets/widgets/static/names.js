@@ -10,7 +10,11 @@ function accessibleName(control) {
   const withTooltip = control.closest("[title]");
   return icon && PLAY_BUTTONS[icon] || label?.textContent?.trim() || withTooltip?.title;
 }
+function dropEmptyTooltips(box) {
+  for (const label of box.querySelectorAll("[title=null]")) label.removeAttribute("title");
+}
 function nameControls(box) {
+  dropEmptyTooltips(box);
   for (
     const control of
     /** @type {NodeListOf<Control>} */

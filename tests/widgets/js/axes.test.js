@@ -11,10 +11,14 @@ const AXES = {
   note: "",
 };
 
-/** @param {object} traits */
-function plotArea(traits) {
+/**
+ * @param {object} traits
+ * @param {number} [scale] of the page
+ */
+function plotArea(traits, scale = 1) {
   const values = { window: [0, 300, 0, 100], size: [300, 200], ...traits };
-  const box = { left: 10, top: 20, width: 600, height: 400 };
+  const box = { left: 10, top: 20, width: scale * 600, height: scale * 400 };
+  /** @type {any} */ (globalThis).getComputedStyle = () => ({ width: "600px", height: "400px" });
   const area = new PlotArea(
     /** @type {any} */ ({ get: (/** @type {keyof typeof values} */ name) => values[name] }),
     /** @type {any} */ ({ getBoundingClientRect: () => box }),
@@ -66,4 +70,17 @@ test("positions convert between section, view and kernel", () => {
 test("before the kernel knows a size, its pixels are the view's", () => {
   assert.deepEqual(plotArea({ size: [] }).toKernel({ x: 3, y: 4 }), { x: 3, y: 4 });
   assert.equal(plotArea({ window: [] }).isReady, false);
+});
+
+test("in a scaled page a click is where it is seen", () => {
+  for (const scale of [1, 0.8, 1.25]) {
+    const area = plotArea({}, scale);
+    const position = area.pointerPosition(
+      /** @type {any} */ ({ clientX: 10 + scale * 150, clientY: 20 + scale * 300 }),
+    );
+    assert.deepEqual(
+      Object.values(area.toSection(position)).map((value) => Number(value.toFixed(9))),
+      [75, 75],
+    );
+  }
 });

@@ -16,10 +16,11 @@ export class PlotArea {
     this.height = 0;
   }
 
-  /** Read the present size; false if the plot area is not shown. */
+  /** Read the present size, before any scaling of the page; false if the plot area is not shown. */
   measure() {
-    const { width, height } = this.plot.getBoundingClientRect();
-    if (width < 1 || height < 1) return false;
+    const style = getComputedStyle(this.plot);
+    const [width, height] = [style.width, style.height].map(Number.parseFloat);
+    if (!(width >= 1 && height >= 1)) return false;
     [this.width, this.height] = [width, height];
     return true;
   }
@@ -74,7 +75,8 @@ export class PlotArea {
    * @returns {Pixel}
    */
   pointerPosition(event) {
-    const box = this.plot.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top };
+    const box = this.plot.getBoundingClientRect(); // scaled as the page is, for example on a slide
+    const [across, down] = [this.width / box.width, this.height / box.height];
+    return { x: (event.clientX - box.left) * across, y: (event.clientY - box.top) * down };
   }
 }
