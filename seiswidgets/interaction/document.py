@@ -128,7 +128,9 @@ class EditHistory:
         while begun and self._past[begun - 1].document.drawing.draft:
             begun -= 1
         older, edits = self._past[: max(0, begun - 1)], self._past[max(0, begun - 1) :]
-        entries = [Entry(entry.label, *closed(entry.document)) if entry.document.drawing.draft else entry for entry in edits]
+        entries = [
+            Entry(entry.label, *closed(entry.document)) if entry.document.drawing.draft else entry for entry in edits
+        ]
         documents = [*(entry.document for entry in entries), self._committed]
         self._past = older + [
             replace(entry, label=edit_label(before, after) if entry.label == DRAFT_LINE else entry.label)

@@ -184,7 +184,7 @@ def test_a_view_of_another_size_draws_and_tells_in_proportion(bare_layer):
 @pytest.mark.parametrize("style", ["transform: scale(0.8)", "zoom: 1.25"])
 def test_in_a_page_scaled_afterwards_a_press_is_where_it_is_seen(bare_layer, style):
     layer = bare_layer()
-    layer.page.evaluate("(style) => { document.body.style = style; document.body.style.transformOrigin = '0 0'; }", style)
+    layer.page.evaluate("(style) => { document.body.style = `${style}; transform-origin: 0 0`; }", style)
     box = layer.page.locator(".seiswidgets-layer .plot").bounding_box()
     assert box["width"] != pytest.approx(600)
     layer.page.mouse.click(box["x"] + 0.25 * box["width"], box["y"] + 0.5 * box["height"])
