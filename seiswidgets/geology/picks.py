@@ -10,6 +10,7 @@ import shapely
 from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError
+from seiswidgets.geology.section import filled
 
 FAULT, HORIZON = "fault", "horizon"
 SEGMENTS_AT_ONCE = 64  # of a line, tested together for one that meets an earlier one
@@ -154,7 +155,7 @@ def _find(picks: Sequence[Pick], kind: str, name: str) -> Pick:
 def _polyline(points: ArrayLike, what: str, name: str) -> np.ndarray:
     """Validate the points of a line; ``what`` names the line in errors, ``name`` the pick it belongs to."""
     try:
-        line = np.array(points, dtype=float)
+        line = np.array(filled(points), dtype=float)
     except (TypeError, ValueError):
         raise PickError(f"{what} must be a list of points (x, z), each of two numbers", pick=name) from None
     if line.ndim != 2 or line.shape[1] != 2:

@@ -22,7 +22,7 @@ class Section:
     Parameters
     ----------
     amplitude : array, shape (nz, nx)
-        One column a trace, one row a sample. NaN where there are no data.
+        One column a trace, one row a sample. NaN, or masked, where there are no data.
     dx, dz : float
         Distance between traces, in ``x_unit``, and between samples, in ``z_unit``.
     x0, z0 : float
@@ -163,9 +163,16 @@ def _validate_number(name: str, value: float) -> float:
     return number
 
 
+def filled(values: ArrayLike) -> ArrayLike:
+    """Values with NaN in place of the masked ones of a masked array; others unchanged."""
+    if not isinstance(values, np.ma.MaskedArray):
+        return values
+    return np.ma.filled(values.astype(np.result_type(values.dtype, np.float32)), np.nan)
+
+
 def _validate_amplitude(amplitude: ArrayLike) -> np.ndarray:
     try:
-        array = np.array(amplitude)
+        array = np.array(filled(amplitude))
         array = array if array.dtype in (np.float32, np.float64) else array.astype(np.float64, casting="same_kind")
     except (TypeError, ValueError):
         raise SectionError("amplitudes must be an array of real numbers, of shape (samples, traces)") from None

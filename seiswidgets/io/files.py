@@ -2,11 +2,12 @@
 
 import contextlib
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from os import PathLike
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from reprlib import repr as brief
 from tempfile import mkdtemp
 from types import ModuleType
@@ -41,7 +42,7 @@ def existing_file(path: str | PathLike) -> Path:
     path = user_path(path)
     try:
         if not path.exists():
-            raise DataError(f"{path} does not exist; check its name and folder")
+            raise DataError(_missing(path))
         if path.is_dir():
             raise DataError(f"{path} is a folder; give the path of a file")
         if not path.is_file():
@@ -51,6 +52,18 @@ def existing_file(path: str | PathLike) -> Path:
             raise
         raise DataError(f"{str(path)[:200]!r} cannot be the path of a file: {_reason(error)}; correct it") from error
     return path
+
+
+def _missing(path: Path) -> str:
+    """The message about a missing file; it says if the path comes from another operating system."""
+    foreign = re.search(r"(?:^|/)((?:[A-Za-z]:[\\/]|\\\\).*)", str(path)) if os.name == "posix" else None
+    if foreign is None:
+        return f"{path} does not exist; check its name and folder"
+    name = PureWindowsPath(foreign[1]).name
+    return (
+        f"{foreign[1]} is a path of Windows, which this system does not have; copy {name} to this system and give its "
+        "path here. A session finds it in its own folder"
+    )
 
 
 def output_path(path: str | PathLike, suffixes: tuple[str, ...]) -> Path:

@@ -2,15 +2,18 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import wrap
 
 from seiswidgets.geology.findings import Finding
 
 TIME_OR_DEPTH = "z_unit or velocity"  # an entry of ``needed``: either will do
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SectionInfo:
     """Contents of a section file before it is opened: enough to choose the options that it needs.
+
+    Printed, it is a summary of a few lines, without the textual header.
 
     Attributes
     ----------
@@ -51,6 +54,29 @@ class SectionInfo:
     header: str = ""
     findings: tuple[Finding, ...] = ()
 
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """The contents in a few phrases."""
+        samples, traces = self.shape
+        texts = [
+            f"{self.kind} ({self.format}), {readable_size(self.size)}",
+            f"{traces:,} traces of {samples:,} samples",
+        ]
+        for name, lines in (("inlines", self.inlines), ("crosslines", self.crosslines)):
+            texts += [f"{lines[2]:,} {name}, {lines[0]} to {lines[1]}"] if lines else []
+        where = " along the first line" if self.inlines else ""
+        texts += [f"traces {self.dx:g} {self.x_unit} apart{where}"] if self.dx is not None else []
+        texts += [f"samples {self.dz:g} ms (or m) apart"] if self.dz is not None else []
+        texts += [f"first sample at {self.z0:g} ms (or m)"] if self.z0 else []
+        return tuple(texts)
+
+    def __repr__(self) -> str:
+        rows = [f"{self.path.name}: {'; '.join(self.facts)}"]
+        rows += [f"needs {', '.join(self.needed)}"] if self.needed else []
+        rows += [f"{finding.severity}: {finding.text}" for finding in self.findings]
+        rows += [f"textual header of {len(self.header):,} characters in .header"] if self.header else []
+        return "\n".join(line for row in rows for line in wrap(row, 100, subsequent_indent="  "))
+
     def middle(self, name: str) -> int | None:
         """Number of a volume's middle inline or crossline, or None if the file is not a volume."""
         lines = {"inline": self.inlines, "crossline": self.crosslines}[name]
@@ -58,3 +84,8 @@ class SectionInfo:
             return None
         first, last, count = lines
         return round(first + count // 2 * (last - first) / max(count - 1, 1))
+
+
+def readable_size(size: int) -> str:
+    """A number of bytes in KiB or MiB."""
+    return f"{size / 2**20:.1f} MiB" if size >= 2**20 else f"{size / 2**10:.1f} KiB"

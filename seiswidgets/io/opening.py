@@ -5,12 +5,13 @@ from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple, Unpack
+from zipfile import BadZipFile, ZipFile
 
 from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.files import existing_file
 from seiswidgets.io.info import SectionInfo
-from seiswidgets.io.options import OpenKeywords, OpenOptions, Progress, report_progress
+from seiswidgets.io.options import DAMAGED, OpenKeywords, OpenOptions, Progress, report_progress
 from seiswidgets.io.rasters.arrays import open_array, open_text, preview_array, preview_text
 from seiswidgets.io.rasters.images import open_picture, preview_picture
 from seiswidgets.io.segy.layout import begins_like_segy
@@ -41,6 +42,7 @@ SIGNATURES = {  # first bytes of a file
     b"\x93NUMPY": "array",
     b"PK\3\4": "array",
 }
+ARCHIVES = {b"\x1f\x8b": "gzip", b"7z\xbc\xaf\x27\x1c": "7-Zip", b"Rar!\x1a\x07": "RAR"}
 SUFFIXES = {
     **dict.fromkeys((".sgy", ".segy", ".seg"), "SEG-Y"),
     **dict.fromkeys((".png", ".jpg", ".jpeg", ".tif", ".tiff"), "picture"),
@@ -151,6 +153,7 @@ def _kind(path: Path) -> str:
         head = file.read(4096)
     if not head:
         raise DataError(f"{path} is empty; copy it again from its source")
+    _refuse_archives(path, head)
     for signature, kind in SIGNATURES.items():
         if head.startswith(signature):
             return kind
@@ -169,6 +172,29 @@ def _kind(path: Path) -> str:
     raise DataError(
         f"{path} is in an unsupported file format; convert it to SEG-Y, PNG, JPEG, TIFF, .npy, .npz or a text matrix"
     )
+
+
+def _refuse_archives(path: Path, head: bytes) -> None:
+    """Raise DataError for a packed file, unless it is an .npz."""
+    for signature, kind in ARCHIVES.items():
+        if head.startswith(signature):
+            raise DataError(f"{path} is packed with {kind}; unpack it, and open the file that it holds")
+    if head.startswith(b"PK\3\4"):
+        names = _files_in_zip(path)
+        if names and not any(name.endswith(".npy") for name in names):
+            raise DataError(
+                f"{path} is a zip archive; unzip it, and open the file that it holds: {', '.join(map(repr, names[:3]))}"
+                f"{', ...' if len(names) > 3 else ''}"
+            )
+
+
+def _files_in_zip(path: Path) -> list[str]:
+    """Names of the files in a zip archive; none if it is damaged, which is reported when it is read."""
+    try:
+        with ZipFile(path) as archive:
+            return [name for name in archive.namelist() if not name.endswith("/")]
+    except (BadZipFile, *DAMAGED):
+        return []
 
 
 def _looks_like_numbers(head: bytes) -> bool:

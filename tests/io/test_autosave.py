@@ -253,3 +253,24 @@ def test_what_waits_is_saved_when_the_process_ends(path):
     )
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
     assert find_versions(path)[0].session == SESSION
+
+
+def test_versions_of_another_kernel_stay(path):
+    with sw.Autosave(path, **QUICK) as first, sw.Autosave(path, **QUICK) as other:
+        save_one_by_one(first, [100])
+        save_one_by_one(other, range(11))
+    assert session(100) in [version.session for version in find_versions(path)]
+
+
+def test_the_last_version_of_an_earlier_kernel_stays(path):
+    with sw.Autosave(path, **QUICK) as earlier:
+        save_one_by_one(earlier, [100])
+    with sw.Autosave(path, **QUICK) as autosave:
+        save_one_by_one(autosave, range(11))
+    assert session(100) in [version.session for version in find_versions(path)]
+
+
+def save_one_by_one(autosave, numbers):
+    for number in numbers:
+        autosave.save(session(number))
+        wait_for(lambda: autosave.pending is None)

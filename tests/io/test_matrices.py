@@ -1,4 +1,8 @@
+import os
+import subprocess
+import sys
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -168,7 +172,9 @@ def test_text_that_is_no_matrix(tmp_path, content, encoding, message):
 
 def test_a_text_in_one_row_is_refused_before_it_is_read(tmp_path, monkeypatch):
     monkeypatch.setattr("seiswidgets.io.rasters.arrays.MOST_ROW_CHARACTERS", 10)
-    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 12 characters; write one row for each sample"):
+    with pytest.raises(
+        sw.DataError, match=r"line.txt a first row of 10 characters or more; write one row"
+    ):
         sw.open_section(text(tmp_path / "line.txt", "1 2 3 4 5 6\n1 2 3 4 5 6\n"), **AXES)
 
 
@@ -193,3 +199,61 @@ def test_axes_are_asked_for(tmp_path):
         sw.open_section(path, dx=1, dz=1)
     info = sw.preview(path)
     assert (info.shape, info.needed) == ((2, 3), ("extent, or dx and dz", "z_unit or velocity"))
+
+
+@pytest.mark.parametrize("mask", [np.eye(4, dtype=bool), np.zeros((4, 4), bool), np.tri(4, dtype=bool)])
+@pytest.mark.parametrize("dtype", [np.int16, np.float32, np.float64])
+def test_masked_samples_have_no_data(mask, dtype):
+    values = np.arange(16, dtype=dtype).reshape(4, 4)
+    amplitude = sw.Section(np.ma.array(values, mask=mask, fill_value=7), dx=1, dz=1).amplitude
+    np.testing.assert_array_equal(np.isnan(amplitude), mask)
+    np.testing.assert_array_equal(amplitude[~mask], values[~mask])
+    assert amplitude.dtype == (np.float64 if dtype == np.float64 else np.float32)
+
+
+def test_masked_points_of_a_pick_are_refused():
+    with pytest.raises(sw.PickError, match="point 2 of fault 'F' is not finite"):
+        sw.Fault(np.ma.array([(0, 0), (1, 1), (2, 2)], mask=[(0, 0), (0, 1), (0, 0)]), "F")
+
+
+def packed(path):
+    np.savez_compressed(path, amplitude=np.zeros((3000, 8000), np.float32), dx=5.0, dz=1.0, z_unit="m")
+
+
+def other_matrix(path):
+    np.savez_compressed(path, matrix=np.zeros((3000, 8000), np.float32), remark=np.zeros(9_000_000, np.int8))
+
+
+def long_header(path):
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive, archive.open("amplitude.npy", "w") as file:
+        file.write(b"\x93NUMPY\2\0" + (10**8).to_bytes(4, "little"))
+        for _ in range(100):
+            file.write(b" " * 10**6)
+
+
+def long_rows(path):
+    with path.open("w") as file:
+        file.writelines("1 " * 1_000_000 + "\n" for _ in range(3))
+
+
+@pytest.mark.parametrize(
+    ("name", "write"),
+    [("a.npz", packed), ("a.npz", other_matrix), ("a.npz", long_header), ("a.txt", long_rows)],
+)
+def test_a_preview_takes_no_more_than_the_file_and_50_mb(tmp_path, name, write):
+    write(tmp_path / name)
+    code = (
+        "import sys\nfrom memory import peak\nimport seiswidgets as sw\nfrom seiswidgets.io import opening\n"
+        "before = peak()\n"
+        "try:\n    sw.preview(sys.argv[1])\nexcept sw.DataError:\n    pass\nprint(peak() - before)"
+    )
+    run = [sys.executable, "-c", code, str(tmp_path / name)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])}
+    done = subprocess.run(run, capture_output=True, text=True, check=True, env=environment)
+    assert int(done.stdout) * 1024 < (tmp_path / name).stat().st_size + 50e6
+
+
+def test_a_preview_of_an_npz_reads_what_is_stored_beside_the_matrix(tmp_path):
+    packed(tmp_path / "line.npz")
+    info = sw.preview(tmp_path / "line.npz")
+    assert (info.shape, info.format, info.needed) == ((3000, 8000), "float32", ())

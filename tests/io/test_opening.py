@@ -1,4 +1,6 @@
+import gzip
 import sys
+import zipfile
 
 import numpy as np
 import pytest
@@ -86,3 +88,43 @@ def test_no_file_stays_open(tmp_path):
         with pytest.raises(sw.SettingError, match="inline 5"):
             sw.open_section(tmp_path / "line.sgy", z_unit="m", inline=5)
         sw.open_section(tmp_path / "line.npz", z_unit="m", dx=1, dz=1)
+
+
+@pytest.mark.parametrize(
+    ("name", "members", "match"),
+    [
+        (
+            "line.zip",
+            ["line.sgy"],
+            r"line.zip is a zip archive; unzip it, and open .*: 'line.sgy'$",
+        ),
+        ("a.sgy", ["__a/", "a.sgy", "b.sgy", "c.sgy", "d.txt"], r"unzip it.* 'a.sgy', 'b.sgy', 'c.sgy', \.\.\.$"),
+        ("line.npz", ["line.png"], r"line.npz is a zip archive; unzip it"),
+    ],
+)
+def test_a_zip_says_unzip_it(tmp_path, name, members, match):
+    with zipfile.ZipFile(tmp_path / name, "w") as archive:
+        for member in members:
+            archive.writestr(member, b"content")
+    for act in (sw.preview, sw.open_section):
+        with pytest.raises(sw.DataError, match=match):
+            act(tmp_path / name)
+
+
+@pytest.mark.parametrize(("name", "content"), [("a.sgy.gz", gzip.compress(b"a")), ("a.7z", b"7z\xbc\xaf\x27\x1c12")])
+def test_other_archives_say_unpack(tmp_path, name, content):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(sw.DataError, match=r"is packed with (gzip|7-Zip); unpack it"):
+        sw.preview(tmp_path / name)
+
+
+@pytest.mark.parametrize(("headers", "rows"), [([{181: 25 * n} for n in range(9)], 3), ([{}] * 9, 4)])
+def test_a_preview_prints_a_few_lines_without_the_textual_header(tmp_path, headers, rows):
+    (tmp_path / "line.sgy").write_bytes(segy_bytes(np.ones((9, 4)), headers))
+    info = sw.preview(tmp_path / "line.sgy")
+    printed = repr(info)
+    assert printed.startswith("line.sgy: SEG-Y (IEEE float, 4 bytes, big-endian)")
+    assert "9 traces of 4 samples" in printed
+    assert "A LINE" in info.header
+    assert "A LINE" not in printed
+    assert rows <= len(printed.splitlines()) <= 8

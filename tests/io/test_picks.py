@@ -1,3 +1,4 @@
+import csv
 import json
 import os
 import time
@@ -26,6 +27,10 @@ def lines_of(interpretation):
     """All names and points of an interpretation, to compare."""
     faults = [(fault.name, [fault.points.tolist()]) for fault in interpretation.faults]
     return faults, [(h.name, [piece.tolist() for piece in h.pieces]) for h in interpretation.horizons]
+
+
+def picks_named(name):
+    return sw.Interpretation((sw.Fault([(900, 0), (1000, 1000)], name=name),), ())
 
 
 SIMPLE = picks(F1=[[(900, 0), (1000, 1000)]], H1=[[(0, 100), (940, 120)], [(960, 300), (2000, 310)]])
@@ -108,6 +113,70 @@ def test_z_that_grows_upwards_is_not_taken_for_depth(tmp_path):
         sw.read_picks(path, DEPTH, **choices)
     (fault,) = sw.read_picks(path, DEPTH, z_up=True, **choices).faults
     np.testing.assert_array_equal(fault.points, [(5, 10), (6, 20)])
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [
+        {},
+        {"crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}, "name": "picks"},
+        {"swap": True},
+        {"extra": [0.0]},
+        {"extra": [None], "swap": True},
+    ],
+)
+def test_geojson_edited_in_a_gis_is_read_if_its_units_are_given(tmp_path, edit):
+    sw.write_picks(SIMPLE, tmp_path / "a.geojson", TIME)
+    document = json.loads((tmp_path / "a.geojson").read_text())
+    del document["seiswidgets_picks"]
+    document |= {name: value for name, value in edit.items() if name in ("crs", "name")}
+    for number, feature in enumerate(document["features"]):
+        feature["properties"]["fid"] = number
+        geometry = feature["geometry"]
+        if geometry["type"] == "LineString":
+            geometry["coordinates"] = [geometry["coordinates"]]
+        pieces = [[[*point, *edit.get("extra", [])] for point in piece] for piece in geometry["coordinates"]]
+        geometry |= {"type": "MultiLineString", "coordinates": pieces}
+        if not edit.get("swap") and len(pieces) == 1:
+            geometry |= {"type": "LineString", "coordinates": pieces[0]}
+    document["features"].append({"type": "Feature", "properties": {"kind": None, "name": None}, "geometry": None})
+    path = written(tmp_path, "a.geojson", json.dumps(document))
+    with pytest.warns(UserWarning, match="left out 1 feature without a geometry"):
+        read = sw.read_picks(path, TIME, x_unit="m", z_unit="ms")
+    assert lines_of(read) == lines_of(SIMPLE)
+    with (
+        pytest.warns(UserWarning, match="left out 1 feature"),
+        pytest.raises(DataError, match="does not state its x_unit; give x_unit="),
+    ):
+        sw.read_picks(path, TIME)
+
+
+@pytest.mark.parametrize("scale", [9e-6, 1e-5, 9e-6 / 0.7])
+def test_geojson_that_a_gis_has_converted_to_degrees_is_refused(tmp_path, scale):
+    coordinates = [[5.4 + scale * x, 52.1 + scale * z] for x, z in SIMPLE.faults[0].points.tolist()]
+    path = written(tmp_path, "a.geojson", feature(coordinates=json.dumps(coordinates)).replace(f"{MARK}, ", ""))
+    with pytest.raises(DataError, match=r"all picks lie within 0\.1% of the section, near x=5.* seem to be in degrees"):
+        sw.read_picks(path, DEPTH, x_unit="m", z_unit="m")
+
+
+def test_a_third_coordinate_that_counts_is_refused(tmp_path):
+    path = written(tmp_path, "a.json", feature(coordinates="[[0, 0, 5], [1, 1, 6]]"))
+    with pytest.raises(DataError, match=r"coordinates\[0\] must be a point \[x, z\] of two numbers"):
+        sw.read_picks(path, DEPTH)
+
+
+@pytest.mark.parametrize("name", ["=1+1", "+F2", "-F3", "@A1", "'=quoted", "''-twice", "\t=tab", "'plain", "＝wide"])
+def test_no_spreadsheet_computes_a_name(tmp_path, name):
+    sw.write_picks(picks_named(name), tmp_path / "a.csv", DEPTH)
+    with (tmp_path / "a.csv").open(newline="", encoding="utf-8") as file:
+        cells = [row[1] for row in csv.reader(file)]
+    assert all(cell[0] not in "=+-@\t\r\n＝＋－＠" for cell in cells)
+    assert sw.read_picks(tmp_path / "a.csv", DEPTH).faults[0].name == name
+
+
+def test_names_of_earlier_csv_files_stay(tmp_path):
+    rows = "kind,name,piece,x (m),z (m)\nfault,=F1,1,0,0\nfault,=F1,1,5,9\n"
+    assert sw.read_picks(written(tmp_path, "a.csv", rows), DEPTH).faults[0].name == "=F1"
 
 
 # --- exports of other programs
@@ -336,7 +405,7 @@ def feature(kind="fault", geometry="LineString", coordinates="[[0, 0], [1, 1]]",
         ("a.json", "{", "a.json is not valid JSON"),
         ("a.json", "[" * 100_000, "nested more deeply"),
         ("a.json", "[]", "must be an object .* but is a list of 0"),
-        ("a.json", '{"type": "FeatureCollection"}', "lacks 'seiswidgets_picks'"),
+        ("a.json", '{"type": "FeatureCollection"}', "lacks 'features'"),
         ("a.json", feature().replace('"version": 1', '"version": 9'), "version 9 .* update seiswidgets"),
         ("a.json", feature(coordinates="[[0, 0], [1, NaN]]"), "NaN is not a number in JSON"),
         (

@@ -208,3 +208,17 @@ def test_another_ending_is_refused(tmp_path):
 def test_something_else_is_refused(tmp_path):
     with pytest.raises(sw.SettingError, match="takes a Section or a Restoration, but got a ndarray"):
         sw.save_section(np.ones((2, 2)), tmp_path / "line.npz")
+
+
+@pytest.mark.parametrize("like", [None, "big", "little"])
+def test_segy_has_the_bytes_of_revision_1_whatever_it_comes_from(tmp_path, like):
+    if like is not None:
+        binary = {3501: 0x100, 3505: 0}
+        endian = "little" if like == "little" else "big"
+        (tmp_path / "like.sgy").write_bytes(segy_bytes(np.ones((9, 8)), straight(9), 5, endian, binary=binary))
+        section, choices = sw.open_section(tmp_path / "like.sgy", velocity=2000), {"like": tmp_path / "like.sgy"}
+    else:
+        section, choices = sw.Section(np.ones((8, 9)), dx=25, dz=4), {}
+    sw.save_section(section, tmp_path / "out.sgy", **choices)
+    assert (tmp_path / "out.sgy").read_bytes()[3500:3506] == b"\1\0\0\1\0\0"
+    assert sw.open_section(tmp_path / "out.sgy", velocity=2000).dx == 25

@@ -427,3 +427,23 @@ def test_saving_leaves_the_old_file_when_it_fails(session, saved, tmp_path, monk
         replace(session, plan=sw.Plan()).save(saved[0])
     assert saved[0].read_bytes() == before
     assert os.listdir(tmp_path) == ["session.json"]
+
+
+@pytest.mark.parametrize(
+    "name", [r"C:\Users\me\line.npz", r"\\server\share\line.npz", r"data\line.npz", "/home/another/line.npz"]
+)
+def test_a_session_from_another_system_finds_its_section_beside_it(case, saved, tmp_path, name):
+    folder = tmp_path / "data" if name.startswith("data") else tmp_path
+    folder.mkdir(exist_ok=True)
+    sw.save_section(case.section, folder / "line.npz")
+    path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": name}))
+    assert section_sha256(sw.open_session(path).open_section()) == section_sha256(case.section)
+
+
+@pytest.mark.parametrize("name", [r"C:\Users\me\line.npz", "D:/data/line.npz", r"\\server\share\line.npz"])
+def test_a_path_of_another_system_is_named_as_such(saved, name):
+    path = changed(saved, lambda document: document["section"].update(source={"kind": "file", "path": name}))
+    with pytest.raises(DataError, match=r"is a path of Windows.*copy line.npz .* A session finds it in its own folder"):
+        sw.open_session(path).open_section()
+    with pytest.raises(DataError, match="is a path of Windows"):
+        sw.preview(name)

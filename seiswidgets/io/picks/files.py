@@ -6,6 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from seiswidgets.errors import DataError, Keyword, SettingError
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import METRES, Section
@@ -40,6 +42,7 @@ EXPORTS = {
     "cps3-horizons": cps3.read_horizons,
     "cps3-faults": cps3.read_faults,
 }
+SPOT = 1e-3  # of a section's width and height: picks no larger than this are in another unit
 SUFFIXES = {".geojson": "geojson", ".json": "geojson", ".csv": "csv"}
 
 
@@ -104,12 +107,16 @@ def read_picks(
         file_lines = replace(file_lines, lines=without_single_points(path, file_lines.lines))
         if not z_up:
             _check_sign(path, file_lines.lines, section)
+    states_units = file_lines.x_unit is not None
     file_lines = FileLines(
         tuple(_flipped(line) for line in file_lines.lines) if z_up else file_lines.lines,
         _agreed_unit(path, "x_unit", file_lines.x_unit, x_unit),
         _agreed_unit(path, "z_unit", file_lines.z_unit, z_unit),
     )
-    return build_interpretation(path, in_section_units(path, file_lines, section) if file_lines.lines else ())
+    lines = in_section_units(path, file_lines, section) if file_lines.lines else ()
+    if format_name == "geojson" and not states_units:
+        _check_degrees(path, lines, section)
+    return build_interpretation(path, lines)
 
 
 @strict_keywords
@@ -187,6 +194,18 @@ def _agreed_unit(path: Path, axis: str, stated: str | None, given: str | None) -
 def _flipped(line: PickLine) -> PickLine:
     """The line with the sign of z changed."""
     return replace(line, points=tuple((x, -z) for x, z in line.points))
+
+
+def _check_degrees(path: Path, lines: Iterable[PickLine], section: Section) -> None:
+    """Raise DataError for picks that a GIS has converted to degrees: all of them are at one spot of the section."""
+    points = np.array([point for line in lines for point in line.points])
+    x_min, x_max, z_min, z_max = section.extent
+    if len(points) and (np.ptp(points, axis=0) < SPOT * np.array([x_max - x_min, z_max - z_min])).all():
+        x, z = points[0].tolist()
+        raise DataError(
+            f"{path}: all picks lie within {SPOT:.1%} of the section, near x={x:g}, z={z:g}, so they seem to be in "
+            "degrees; save them from the GIS in the layer's own coordinates, without a conversion to WGS 84"
+        )
 
 
 def _check_sign(path: Path, lines: Iterable[PickLine], section: Section) -> None:

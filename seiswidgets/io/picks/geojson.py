@@ -1,6 +1,8 @@
 """Picks as GeoJSON: one feature per pick, with the units and the version of the format beside the features."""
 
+import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from seiswidgets.errors import DataError
@@ -10,43 +12,63 @@ from seiswidgets.io.picks.lines import FileLines, PickLine
 
 MARK = "seiswidgets_picks"  # a foreign member, as RFC 7946 allows
 VERSION = 1
-GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}
+GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}  # as written; a GIS may exchange them
 
 
 def read(path: Path) -> FileLines:
     """Read a FeatureCollection whose member ``seiswidgets_picks`` holds version, x_unit and z_unit.
 
     A fault is a LineString, a horizon a MultiLineString of its pieces; ``properties`` hold kind and name. Positions
-    are (x, z) on the section, not longitude and latitude.
+    are (x, z) on the section, not longitude and latitude. A GIS may have left out the member with the units, changed
+    one kind of lines to the other, or added a third coordinate of 0.
     """
     document = read_json(path)
+    lines = tuple(line for feature in document["features"].items() for line in _pick_lines(feature))
+    empty = sum(feature["geometry"].value is None for feature in document["features"].items())
+    if empty:
+        message = f"{path}: left out {empty} feature{'s' if empty > 1 else ''} without a geometry"
+        warnings.warn(message, stacklevel=4)  # points to the call of read_picks
+    return FileLines(lines, *_units(document))
+
+
+def _units(document: Entry) -> tuple[str | None, str | None]:
+    """Units of x and z; None if the member that states them is missing."""
     if MARK not in document.members():
-        raise DataError(
-            f"{path} is not GeoJSON of picks: it lacks {MARK!r}, which states their units; save picks with write_picks"
-        )
+        return None, None
     mark = document[MARK]
     if (version := mark["version"].number()) > VERSION:
         raise DataError(
-            f"{path} is in version {version:g} of the GeoJSON of seiswidgets, and this release reads up to {VERSION}; "
-            "update seiswidgets"
+            f"{document.path} is in version {version:g} of the GeoJSON of seiswidgets, and this release reads up to "
+            f"{VERSION}; update seiswidgets"
         )
-    lines = tuple(line for feature in document["features"].items() for line in _pick_lines(feature))
-    return FileLines(lines, mark["x_unit"].text(), mark["z_unit"].text())
+    return mark["x_unit"].text(), mark["z_unit"].text()
 
 
 def _pick_lines(feature: Entry) -> Iterator[PickLine]:
     properties, geometry = feature["properties"], feature["geometry"]
+    if geometry.value is None:
+        return iter(())
     kind = properties["kind"].text()
     if kind not in GEOMETRY:
         raise properties["kind"].error("'fault' or 'horizon'")
-    if geometry["type"].text() != GEOMETRY[kind]:
+    if (geometry_type := geometry["type"].text()) not in GEOMETRY.values():
         raise geometry["type"].error(f"{GEOMETRY[kind]!r} for a {kind}")
     coordinates = geometry["coordinates"]
     name = properties["name"].text()
-    pieces = [coordinates] if kind == FAULT else list(coordinates.items())
+    pieces = [coordinates] if geometry_type == GEOMETRY[FAULT] else list(coordinates.items())
     if not pieces:
         raise coordinates.error("a list of pieces")
-    return (PickLine(kind, name, piece.points(), piece.location) for piece in pieces)
+    return (PickLine(kind, name, _flat(piece).points(), piece.location) for piece in pieces)
+
+
+def _flat(line: Entry) -> Entry:
+    """A line without the third coordinate of 0 that a GIS may have added to its points."""
+    if not isinstance(line.value, list):
+        return line
+    is_extra = (isinstance(point, list) and len(point) > 2 and not any(point[2:]) for point in line.value)
+    return replace(
+        line, value=[point[:2] if extra else point for point, extra in zip(line.value, is_extra, strict=True)]
+    )
 
 
 def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:

@@ -12,12 +12,14 @@ from seiswidgets.io.document import MOST_JSON_BYTES, Point, read_text, text_line
 from seiswidgets.io.picks.lines import FileLines, PickLine, parse_number
 
 COLUMNS = ("kind", "name", "piece", "x", "z")
+FORMULA = re.compile(r"'*[=+\-@\t\r\n＝＋－＠]")  # a spreadsheet would compute a name that begins like this
 
 
 def read(path: Path) -> FileLines:
     """Read a CSV file whose first row names at least the columns kind, name, piece, x and z, in any order.
 
-    The units follow x and z, as in ``x (m)``. Rows with the same kind, name and piece make a line, in their order.
+    The units follow x and z, as in ``x (m)``. Rows with the same kind, name and piece make a line, in their order. An
+    apostrophe before a name that a spreadsheet would take for a formula is left out.
     """
     rows = _numbered_rows(path)
     _, header = next(rows, ("", []))
@@ -35,6 +37,7 @@ def read(path: Path) -> FileLines:
         if kind not in (FAULT, HORIZON):
             raise DataError(f"{path}: {location}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
         x, z = (parse_number(path, location, column, row[columns[column]]) for column in ("x", "z"))
+        name = name[1:] if name[:1] == "'" and FORMULA.match(name) else name
         drawn.setdefault((kind, name, piece), (location, []))[1].append((x, z))
     lines = (PickLine(kind, name, tuple(points), start) for (kind, name, _), (start, points) in drawn.items())
     return FileLines(tuple(lines), x_unit, z_unit)
@@ -71,8 +74,13 @@ def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
     writer = csv.writer(table)
     writer.writerow([*COLUMNS[:3], f"x ({x_unit})", f"z ({z_unit})"])
     for fault in interpretation.faults:
-        writer.writerows([FAULT, fault.name, 1, x, z] for x, z in fault.points.tolist())
+        writer.writerows([FAULT, _guarded(fault.name), 1, x, z] for x, z in fault.points.tolist())
     for horizon in interpretation.horizons:
         for count, piece in enumerate(horizon.pieces, 1):
-            writer.writerows([HORIZON, horizon.name, count, x, z] for x, z in piece.tolist())
+            writer.writerows([HORIZON, _guarded(horizon.name), count, x, z] for x, z in piece.tolist())
     return table.getvalue()
+
+
+def _guarded(name: str) -> str:
+    """A name that no spreadsheet takes for a formula; `read` removes the apostrophe."""
+    return f"'{name}" if FORMULA.match(name) else name

@@ -1,12 +1,15 @@
 """Matrices from NumPy's .npy and .npz and from text. Nothing in a file is unpickled or evaluated."""
 
 import lzma
+import re
 import tokenize
 import warnings
 import zipfile
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
+from io import BytesIO
 from math import prod
 from pathlib import Path
 from reprlib import repr as brief
@@ -32,6 +35,7 @@ from seiswidgets.io.options import (
 
 STORED = ("dx", "dz", "x0", "z0", "x_unit", "z_unit", "velocity", "name", "credit")  # beside the amplitude, in .npz
 MOST_TEXT_BYTES, MOST_ROW_CHARACTERS = 2**28, 2**24
+SMALL = 2**16  # bytes of an array that a preview reads, and of a header
 AXES_NEEDED = "extent, or dx and dz"  # an entry of ``SectionInfo.needed``
 WRITE_AGAIN = "write it again"
 TEXT_FORMAT = (
@@ -52,12 +56,7 @@ def open_array(path: Path, options: OpenOptions, _progress: Progress | None) -> 
         If its axes or units are neither given nor in the file.
     """
     options.refuse(SEGY_OPTIONS, "an array")
-    with _read_errors_as_data_errors(path, WRITE_AGAIN), path.open("rb") as file:
-        if zipfile.is_zipfile(file):
-            arrays = _read_npz(path, file)
-        else:
-            file.seek(0)
-            arrays = {"": _read_array(str(path), file, path.stat().st_size)}
+    arrays = _read_arrays(path)
     amplitude, stored = _matrix(path, arrays), _stored_fields(arrays)
     if {"dx", "dz"} <= stored.keys() and options.keywords.get("extent") is None:
         return make_section(path, amplitude, options, **stored | options.given(AXIS_OPTIONS))
@@ -65,21 +64,14 @@ def open_array(path: Path, options: OpenOptions, _progress: Progress | None) -> 
 
 
 def preview_array(path: Path, options: OpenOptions) -> SectionInfo:
-    """Summarise an array file by its header; an .npz file has to be read."""
+    """Summarise an array file by the headers of its arrays."""
     options.refuse(SEGY_OPTIONS, "an array")
-    stored: dict[str, Any] = {}
-    with _read_errors_as_data_errors(path, WRITE_AGAIN), path.open("rb") as file:
-        if zipfile.is_zipfile(file):
-            arrays = _read_npz(path, file)
-            array, stored = _matrix(path, arrays), _stored_fields(arrays)
-            shape, dtype = array.shape, array.dtype
-        else:
-            file.seek(0)
-            shape, _, dtype = _read_header(str(path), file, path.stat().st_size)
-            check_shape(path, shape)
+    arrays = _read_arrays(path, headers_only=True)
+    array, stored = _matrix(path, arrays), _stored_fields(arrays)
     needed = [] if {"dx", "dz"} <= stored.keys() else [AXES_NEEDED]
     needed += [] if "velocity" in stored or stored.get("z_unit") in tuple(METRES) else [TIME_OR_DEPTH]
-    return SectionInfo(path, "array", str(dtype), path.stat().st_size, cast(tuple[int, int], shape), tuple(needed))
+    shape = cast(tuple[int, int], array.shape)
+    return SectionInfo(path, "array", str(array.dtype), path.stat().st_size, shape, tuple(needed))
 
 
 def open_text(path: Path, options: OpenOptions, _progress: Progress | None) -> Section:
@@ -103,9 +95,13 @@ def open_text(path: Path, options: OpenOptions, _progress: Progress | None) -> S
 def preview_text(path: Path, options: OpenOptions) -> SectionInfo:
     """Summarise a text matrix; only its first row is read as numbers."""
     options.refuse(SEGY_OPTIONS, "a text")
-    columns = _read_numbers(path, rows=1).shape[-1]
+    rows = columns = 0
     with _read_errors_as_data_errors(path, TEXT_FORMAT), path.open(encoding="utf-8-sig") as file:
-        rows = sum(bool(_without_comment(line)) for line in file)
+        for count, line in enumerate(iter(partial(file.readline, MOST_ROW_CHARACTERS), ""), 1):
+            row = _without_comment(line)
+            if row and not rows:
+                columns = _count_numbers(path, count, row, _delimiter(path, row))
+            rows += bool(row)
     check_shape(path, (rows, columns))
     return SectionInfo(path, "text", "numbers", path.stat().st_size, (rows, columns), (AXES_NEEDED, TIME_OR_DEPTH))
 
@@ -123,7 +119,16 @@ def _read_errors_as_data_errors(path: Path, remedy: str) -> Iterator[None]:
         raise DataError(f"{path} is damaged, or not a matrix of numbers: {shortened(str(error))}; {remedy}") from error
 
 
-def _read_npz(path: Path, file: BinaryIO) -> dict[str, np.ndarray]:
+def _read_arrays(path: Path, headers_only: bool = False) -> dict[str, np.ndarray]:
+    """Arrays of an .npy or .npz file, by name; with ``headers_only``, matrices of the right shape without content."""
+    with _read_errors_as_data_errors(path, WRITE_AGAIN), path.open("rb") as file:
+        if zipfile.is_zipfile(file):
+            return _read_npz(path, file, headers_only)
+        file.seek(0)
+        return {"": _read_array(str(path), file, path.stat().st_size, headers_only)}
+
+
+def _read_npz(path: Path, file: BinaryIO, headers_only: bool) -> dict[str, np.ndarray]:
     """Arrays of an .npz file, by name; beside an amplitude only the section's fields."""
     with zipfile.ZipFile(file) as archive:
         infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
@@ -133,7 +138,9 @@ def _read_npz(path: Path, file: BinaryIO) -> dict[str, np.ndarray]:
         arrays = {}
         for name, info in infos.items():
             with archive.open(info) as member:
-                arrays[name] = _read_array(f"{path}: {name}", cast(BinaryIO, member), info.file_size)
+                without_content = headers_only and info.file_size > SMALL
+                stream = cast(BinaryIO, member)
+                arrays[name] = _read_array(f"{path}: {name}", stream, info.file_size, without_content)
     return arrays
 
 
@@ -157,9 +164,11 @@ def _matrix(path: Path, arrays: Mapping[str, np.ndarray]) -> np.ndarray:
     return array
 
 
-def _read_array(name: str, file: BinaryIO, size: int) -> np.ndarray:
-    """Read an array of numbers or strings in NumPy's format."""
+def _read_array(name: str, file: BinaryIO, size: int, header_only: bool) -> np.ndarray:
+    """Read an array of numbers or strings in NumPy's format, or only its shape and dtype."""
     shape, column_major, dtype = _read_header(name, file, size)
+    if header_only:
+        return np.broadcast_to(np.zeros((), dtype), shape)  # takes the memory of one element
     return np.frombuffer(file.read(), dtype).reshape(shape, order="F" if column_major else "C")
 
 
@@ -169,7 +178,9 @@ def _read_header(name: str, file: BinaryIO, size: int) -> tuple[tuple[int, ...],
     if version not in ((1, 0), (2, 0)):
         raise DataError(f"{name} is in version {version} of NumPy's format, which no matrix of numbers needs")
     read = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
-    shape, column_major, dtype = read(file)
+    length = file.read(2 if version == (1, 0) else 4)
+    text = file.read(min(int.from_bytes(length, "little"), SMALL))
+    shape, column_major, dtype = read(BytesIO(length + text))
     if dtype.kind not in "fiubU":
         raise DataError(f"{name} holds {dtype}, not real numbers; nothing else is read from an array file")
     itemsize = dtype.itemsize if dtype == np.float32 else max(dtype.itemsize, 8)  # as the section will hold it
@@ -183,7 +194,7 @@ def _read_header(name: str, file: BinaryIO, size: int) -> tuple[tuple[int, ...],
     return shape, column_major, dtype
 
 
-def _read_numbers(path: Path, rows: int | None = None) -> np.ndarray:
+def _read_numbers(path: Path) -> np.ndarray:
     """Numbers of a text file, float64, whichever its delimiter is."""
     size = path.stat().st_size
     if size > MOST_TEXT_BYTES:
@@ -193,12 +204,10 @@ def _read_numbers(path: Path, rows: int | None = None) -> np.ndarray:
         )
     with _read_errors_as_data_errors(path, TEXT_FORMAT):
         with path.open(encoding="utf-8-sig") as file:
-            first = next((line for line in file if _without_comment(line)), "")
-        if len(first) > MOST_ROW_CHARACTERS:
-            raise DataError(f"{path} has a first row of {len(first):,} characters; write one row for each sample")
-        delimiter = next(mark for mark in DELIMITERS if mark is None or mark in _without_comment(first))
+            lines = map(_without_comment, iter(partial(file.readline, MOST_ROW_CHARACTERS), ""))
+            delimiter = _delimiter(path, next(filter(None, lines), ""))
         try:
-            return np.loadtxt(path, delimiter=delimiter, ndmin=2, max_rows=rows, encoding="utf-8-sig")
+            return np.loadtxt(path, delimiter=delimiter, ndmin=2, encoding="utf-8-sig")
         except UnicodeDecodeError:
             raise
         except ValueError:
@@ -213,27 +222,40 @@ def _raise_first_bad_row(path: Path, delimiter: str | None) -> None:
         for count, line in enumerate(file, 1):
             if not (row := _without_comment(line)):
                 continue
-            values = row.split(delimiter)
-            width = width or len(values)
-            if len(values) != width:
-                raise DataError(
-                    f"{path}: row {count} has {len(values)} values, and those before it {width}; {TEXT_FORMAT}"
-                )
-            if not _are_numbers(values):
-                column, value = next(pair for pair in enumerate(values, 1) if not _are_numbers(pair[1:]))
-                raise DataError(
-                    f"{path}: row {count}, value {column} must be a number, but is {brief(value.strip())}; "
-                    f"{TEXT_FORMAT}"
-                )
+            values = sum(1 for _ in _values(row, delimiter))
+            width = width or values
+            if values != width:
+                raise DataError(f"{path}: row {count} has {values} values, and those before it {width}; {TEXT_FORMAT}")
+            _count_numbers(path, count, row, delimiter)
+
+
+def _delimiter(path: Path, first: str) -> str | None:
+    """The mark that separates the values of the first row; None for white space."""
+    if len(first) >= MOST_ROW_CHARACTERS - 1:
+        raise DataError(
+            f"{path} has a first row of {MOST_ROW_CHARACTERS:,} characters or more; write one row for each sample"
+        )
+    return next(mark for mark in DELIMITERS if mark is None or mark in first)
+
+
+def _values(row: str, delimiter: str | None) -> Iterator[str]:
+    """Iterate over the values of a row, one by one: as a list they would take much more memory than the row."""
+    pattern = r"\S+" if delimiter is None else f"(?:^|(?<={delimiter}))[^{delimiter}]*"
+    return (match[0].strip() for match in re.finditer(pattern, row))
+
+
+def _count_numbers(path: Path, count: int, row: str, delimiter: str | None) -> int:
+    """Number of values in a row; DataError for the first one that is not a number."""
+    column = 0
+    for column, value in enumerate(_values(row, delimiter), 1):
+        try:
+            float(value)
+        except ValueError:
+            raise DataError(
+                f"{path}: row {count}, value {column} must be a number, but is {brief(value)}; {TEXT_FORMAT}"
+            ) from None
+    return column
 
 
 def _without_comment(line: str) -> str:
     return line.partition("#")[0].strip()
-
-
-def _are_numbers(texts: Iterable[str]) -> bool:
-    try:
-        list(map(float, texts))
-    except ValueError:
-        return False
-    return True

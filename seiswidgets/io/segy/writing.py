@@ -26,6 +26,7 @@ COPIED = {
     *range(3227, 3261),
 }  # bytes of the binary header that are copied
 NUMBERS = (1, 5, 21)  # trace number in the line and in the file, and number of its common depth point
+REVISION = b"\1\0\0\1\0\0"  # 1.0, traces of equal length, no further textual headers
 LARGEST_INTEGER, MOST_SAMPLES = 2**31 - 1, 2**16 - 1
 
 
@@ -57,12 +58,16 @@ def write_segy(
                 )
     spec = segyio.spec()
     spec.samples, spec.tracecount, spec.format = np.arange(section.shape[0]), section.shape[1], 5
-    with atomic_write(path) as draft, segyio.create(draft, spec) as file:
-        file.text[0] = _textual_header(text, section, restored)
-        file.bin = general | {3217: vertical[117], 3219: vertical[117], 3501: 1}
-        for index, (trace, header) in enumerate(zip(section.amplitude.T, headers, strict=True)):
-            _put_header(file, index, header | vertical | {115: section.shape[0], 29: _state(trace)}, path)
-            file.trace[index] = np.nan_to_num(np.ascontiguousarray(trace, np.float32))
+    with atomic_write(path) as draft:
+        with segyio.create(draft, spec) as file:
+            file.text[0] = _textual_header(text, section, restored)
+            file.bin = general | {3217: vertical[117], 3219: vertical[117]}
+            for index, (trace, header) in enumerate(zip(section.amplitude.T, headers, strict=True)):
+                _put_header(file, index, header | vertical | {115: section.shape[0], 29: _state(trace)}, path)
+                file.trace[index] = np.nan_to_num(np.ascontiguousarray(trace, np.float32))
+        with draft.open("r+b") as written:  # versions of segyio differ in how they write these
+            written.seek(3500)
+            written.write(REVISION)
 
 
 def _open_with_segyio(segyio: ModuleType, layout: Layout) -> Any:

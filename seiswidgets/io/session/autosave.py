@@ -47,7 +47,8 @@ class Version:
 class Autosave:
     """Save sessions as numbered files, ``<stem>.000001.json`` and so on, and delete all but the last few.
 
-    Each file is complete or does not exist. Use it in a ``with`` statement, or close it.
+    Each file is complete or does not exist. Files that another kernel saves meanwhile are not deleted. Use it in a
+    ``with`` statement, or close it.
 
     Parameters
     ----------
@@ -72,6 +73,8 @@ class Autosave:
     ):
         self.path, self.keep = user_path(path), keep
         self._report, self._behind, self._again = report, behind, again
+        self._numbers = sorted(numbered_files(self.path))  # that may be deleted, except the last: others' work
+        self._kept = set(self._numbers[-1:])
         self._change = threading.Condition()
         self._pending: Saveable | None = None
         self._saved: Saveable | None = None
@@ -149,17 +152,19 @@ class Autosave:
         if session == self._saved:
             return None
         try:
-            older = numbered_files(self.path)
-            number = max(older, default=0) + 1
+            present = numbered_files(self.path)
+            number = max(present, default=0) + 1
             session.save(self.path.with_name(f"{self.path.stem}.{number:06d}{self.path.suffix}"))
         except DataError as error:
             return error
         except Exception as error:  # noqa: BLE001 - a thread that ends in silence would lose all later work
             return DataError(f"{self.path} cannot be saved: {error}")
         self._saved = session
-        for old in sorted(older)[: max(0, len(older) + 1 - self.keep)]:
+        self._numbers = [*(old for old in self._numbers if old in present), number]
+        expendable = [old for old in self._numbers[:-1] if old not in self._kept]
+        for old in expendable[: max(0, len(self._numbers) - self.keep)]:
             with contextlib.suppress(OSError):  # an old version that cannot be deleted does no harm
-                older[old].unlink()
+                present[old].unlink()
         return None
 
 

@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from functools import partial
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from reprlib import repr as brief
 from types import MappingProxyType
 from typing import Any
@@ -169,12 +169,14 @@ def _synthetic(function: str, **choices: Any) -> Section:
 def section_path(folder: Path, name: str, allow_outside: bool) -> Path:
     """Resolve a path in a session's file, following links.
 
+    If there is no such file, it is looked for by its name in the session's folder.
+
     Raises
     ------
     DataError
         If it leads outside the session's folder, and that is not allowed.
     """
-    root = os.path.realpath(folder)
+    root, name = os.path.realpath(folder), _moved(folder, name)
     try:
         path = os.path.realpath(os.path.join(root, name))
         inside = os.path.commonpath([root, path]) == root
@@ -188,6 +190,16 @@ def section_path(folder: Path, name: str, allow_outside: bool) -> Path:
             " if you trust it",
         )
     return Path(path)
+
+
+def _moved(folder: Path, name: str) -> str:
+    """The same file in a session's folder if the session was moved here from another system; others unchanged."""
+    path = PureWindowsPath(name)  # which accepts the separators of either system
+    try:
+        candidates = [] if (folder / name).exists() else [path.as_posix(), path.name]
+        return next((moved for moved in candidates if (folder / moved).is_file()), name)
+    except (OSError, ValueError):  # a name that the system does not allow, which is refused later
+        return name
 
 
 def relative_path(folder: Path, path: str) -> str:

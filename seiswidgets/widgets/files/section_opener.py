@@ -153,16 +153,5 @@ class SectionOpener(VBox):
 
 def _summary(info: SectionInfo) -> str:
     """HTML summary of a file; all text from the file is escaped."""
-    samples, traces = info.shape
-    parts = [f"{info.kind} ({info.format}), {_size(info.size)}", f"{traces:,} traces of {samples:,} samples"]
-    for name, lines in (("inlines", info.inlines), ("crosslines", info.crosslines)):
-        parts += [f"{lines[2]:,} {name}, {lines[0]} to {lines[1]}"] if lines else []
-    where = " along the first line" if info.inlines else ""
-    parts += [f"traces {info.dx:g} {info.x_unit} apart{where}"] if info.dx is not None else []
-    parts += [f"samples {info.dz:g} ms (or m) apart"] if info.dz is not None else []
     header = HEADER.format(escape(info.header)) if info.header else ""
-    return f'<div style="line-height: 1.4">{escape("; ".join(parts))}.</div>{header}'
-
-
-def _size(size: int) -> str:
-    return f"{size / 2**20:.1f} MiB" if size >= 2**20 else f"{size / 2**10:.1f} KiB"
+    return f'<div style="line-height: 1.4">{escape("; ".join(info.facts))}.</div>{header}'
