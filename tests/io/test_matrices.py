@@ -172,9 +172,7 @@ def test_text_that_is_no_matrix(tmp_path, content, encoding, message):
 
 def test_a_text_in_one_row_is_refused_before_it_is_read(tmp_path, monkeypatch):
     monkeypatch.setattr("seiswidgets.io.rasters.arrays.MOST_ROW_CHARACTERS", 10)
-    with pytest.raises(
-        sw.DataError, match=r"line.txt a first row of 10 characters or more; write one row"
-    ):
+    with pytest.raises(sw.DataError, match=r"line.txt has a first row of 10 characters or more; write one row"):
         sw.open_section(text(tmp_path / "line.txt", "1 2 3 4 5 6\n1 2 3 4 5 6\n"), **AXES)
 
 
