@@ -249,6 +249,32 @@ class History:
         """Return points of the present-day section to where they were deposited; shape (n, 2)."""
         return self.fold.undo(self.to_unfaulted(points))
 
+    def blocks_at(self, depth: float) -> list[int]:
+        """The blocks in which the bed deposited at a depth lies: all of them."""
+        return list(range(len(self.slips)))
+
+    def lines(self, survey: Survey) -> list[np.ndarray]:
+        """Points of each fault, from one end to the other.
+
+        Raises
+        ------
+        SettingError
+            If a fault does not cross the section or, if blind, does not end inside it.
+        """
+        lines = [fault.polyline(survey) for fault in self.faults]
+        for index, line in enumerate(lines, 1):
+            ends = survey.margin(line[[0, -1]])
+            if survey.margin(line).min() < -1e-6 or (ends.max() > 1e-6 and not self.blind):
+                rule = "end inside the section" if self.blind else "run from the top of the section to its border"
+                raise SettingError(
+                    f"fault F{index} must {rule}, "
+                    f"but the section is {survey.width:g} m x {survey.depth:g} m and the fault goes from "
+                    f"x={line[0, 0]:.0f}, z={line[0, 1]:.0f} to x={line[-1, 0]:.0f}, z={line[-1, 1]:.0f}; "
+                    "make the section larger, or the fault steeper, shorter or of a larger radius",
+                    pick=f"F{index}",
+                )
+        return lines
+
     def bed(self, depth: float, side: int) -> Callable[[np.ndarray], np.ndarray]:
         """Present-day points of the bed deposited at a depth, as a function of the deposited x; valid on one side."""
         return lambda x: self.slips[side].apply(self.fold.apply(np.column_stack([x, np.full(np.shape(x), depth)])))

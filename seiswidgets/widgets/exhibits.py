@@ -39,6 +39,9 @@ EXHIBITS = {
         Exhibit("Dominoes", synthetic.domino, "Parallel faults between blocks that rotated together."),
         Exhibit("Blind fault", synthetic.blind_fault, "Both tips of the fault lie inside the section."),
         Exhibit("Folds", synthetic.sine_fold, "No fault: one horizon is enough to flatten it."),
+        Exhibit("Thrust", synthetic.thrust, "A sheet slid along a floor and up a ramp, and bent at its foot."),
+        Exhibit("Fault-bend fold", synthetic.fault_bend_fold, "A sheet slid over a ramp, and folded at its bends."),
+        Exhibit("Parallel fold", synthetic.flexural_fold, "Beds slipped past each other and kept their lengths."),
         Exhibit("F3, Dutch North Sea", datasets.f3, "A real section in two-way time; small faults at the lower left."),
         Exhibit("Teapot Dome, Wyoming", datasets.teapot, "A real section in two-way time; one fault in the middle."),
     )

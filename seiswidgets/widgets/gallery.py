@@ -43,7 +43,7 @@ CHOSEN = "choice"  # name under which the browser keeps the chosen section
 
 
 class Gallery(WithParts, VBox):
-    """The restoration app with a choice of sections: seven synthetic ones with known answers, and two real ones.
+    """The restoration app with a choice of sections: ten synthetic ones with known answers, and two real ones.
 
     Your work on each section is kept, separately with and without an interpreter's picks, and is back when you choose
     that section again. Your browser keeps it too, so it is also back when the page is reloaded and, as in Voila, a new

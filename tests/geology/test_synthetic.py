@@ -6,6 +6,7 @@ import shapely
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import synthetic
+from seiswidgets.geology.parallel_flow import FlexuralSlip, ramp_thrust, rounded_fold
 
 CASES = {
     "planar": (synthetic.planar_fault, {}),
@@ -22,7 +23,15 @@ CASES = {
     "blind, to the left": (synthetic.blind_fault, {"dip": 120}),
     "faulted fold, one horizon": (synthetic.faulted_fold, {"horizons": (900.0,), "throw": 250}),
 }
+BENT = {
+    "thrust": (synthetic.thrust, {}),
+    "imbricates": (synthetic.thrust, {"faults": 3}),
+    "fault-bend fold": (synthetic.fault_bend_fold, {"horizons": (1000.0, 1200.0)}),
+    "flexural 30": (synthetic.flexural_fold, {}),
+    "flexural 45": (synthetic.flexural_fold, {"dip": 45}),
+}
 RIGID = [name for name in CASES if not name.startswith("blind")]  # the rock around a blind fault bends
+CASES |= BENT
 
 
 @pytest.fixture(scope="module", params=CASES)
@@ -50,8 +59,8 @@ def shifted_in(piece, distance=1e-7):
 
 
 def sagitta(fault):
-    """Farthest that an arc strays from the polyline through its evenly spaced points; 0 for a straight fault."""
-    if len(fault.points) == 2:
+    """Farthest that an arc strays from the polyline through its evenly spaced points; 0 for a few straight lines."""
+    if len(fault.points) < 10:
         return 0.0
     first, middle, last = fault.points[:3]
     return 1.01 / 4 * shapely.LineString([first, last]).distance(shapely.Point(middle))
@@ -253,6 +262,66 @@ def test_blind_restoration_is_finite_everywhere():
     assert moved.max() < 100
 
 
+@pytest.mark.parametrize("case", BENT, indirect=True)
+def test_bent_rock_keeps_its_area(case):
+    _, answer = case
+    points, step = scattered(answer.section), 1e-3
+    columns = [answer.to_restored(points + by) - answer.to_restored(points - by) for by in ((step, 0), (0, step))]
+    area = np.linalg.det(np.stack(columns, axis=1) / (2 * step))
+    np.testing.assert_allclose(area, 1, atol=1e-6)
+
+
+@pytest.mark.parametrize("dip", [30, 45, 60])
+def test_a_parallel_fold_keeps_the_length_and_the_thickness_of_beds(dip):
+    fold = FlexuralSlip(rounded_fold(dip, 1600, 200, (2000, 500)), 2000, 1000)
+    x = np.linspace(-3000, 7000, 20001)
+    beds = [fold.apply(np.column_stack([x, np.full_like(x, depth)])) for depth in (500, 1000, 1300)]
+    for bed in beds:
+        assert np.hypot(*np.diff(bed, axis=0).T).sum() == pytest.approx(10000, rel=1e-6)
+        slopes = np.arctan2(*np.abs(np.diff(bed[::10], axis=0)).T[::-1])
+        assert np.rad2deg(slopes.max()) == pytest.approx(dip, abs=0.1)
+    upper, lower = shapely.LineString(beds[1][::2]), shapely.points(beds[2][200:-200:20])
+    assert shapely.distance(lower, upper) == pytest.approx(300, abs=0.2)
+
+
+def test_beds_that_follow_a_thrust_keep_their_length():
+    """A sheet that was parallel to the floor is parallel to the ramp: the bisector bends it without strain."""
+    (piece,) = synthetic.thrust(dip=25).interpretation.horizon("H1").pieces[1:]
+    start, end = synthetic.thrust(dip=25).to_restored(shifted_in(piece)[[0, -1]])
+    bends = np.hypot(*np.diff(piece, axis=0).T).sum()
+    assert bends == pytest.approx(end[0] - start[0], rel=2e-3)  # the piece cuts corners
+
+
+@pytest.mark.parametrize(
+    "flow",
+    [
+        ramp_thrust([(0, 800), (1500, 800), (2700, 1400), (4000, 1400)], 400),
+        FlexuralSlip(rounded_fold(45, 1600, 200, (2000, 500)), 2000, 1000),
+    ],
+)
+def test_parallel_flow_is_undone_exactly(flow):
+    points = np.random.default_rng(0).uniform((0, 0), (4000, 800), (2000, 2))
+    np.testing.assert_allclose(flow.undo(flow.apply(points)), points, atol=1e-8)
+    np.testing.assert_allclose(flow.apply(flow.undo(points)), points, atol=1e-8)
+
+
+def test_horizons_above_the_upper_flat_are_folded_but_not_cut():
+    answer = synthetic.fault_bend_fold()
+    assert [len(horizon.pieces) for horizon in answer.interpretation.horizons] == [1, 2, 2]
+    (above,) = answer.interpretation.horizons[0].pieces
+    assert np.ptp(above[:, 1]) == pytest.approx(400 * np.sin(np.deg2rad(25)), rel=1e-6)  # the slip lifts it up the ramp
+
+
+def test_imbricates_rise_from_one_floor_and_the_older_were_carried():
+    answer = synthetic.thrust(slip=300, faults=3, spacing=1200)
+    first, *older = (fault.points for fault in answer.interpretation.faults)
+    for line in older:
+        assert shapely.LineString(first).distance(shapely.Point(line[-1])) < 1e-6
+    feet = [line[-1, 0] for line in older]
+    np.testing.assert_allclose(np.diff([first[1, 0], *feet]), 1200 - 300)
+    assert len(older[0]) == 4  # bent where it crossed the axial surface of F1
+
+
 def test_seeds_reproduce_and_differ():
     one, same, other = (synthetic.faulted_fold(seed=seed).section.amplitude for seed in (1, 1, 2))
     np.testing.assert_array_equal(one, same)
@@ -293,6 +362,17 @@ def test_survey_sets_size_and_spacing():
         (synthetic.blind_fault, {"slip": 800}, "slip must be from 0 to 125 m"),
         (synthetic.blind_fault, {"horizons": (300.0,)}, "the horizon at 300 m must have one piece"),
         (synthetic.graben, {"floor": 0}, "floor must be from 10"),
+        (synthetic.thrust, {"spacing": 200}, "spacing must be from 375 to 10000 m, at least 1.25 of the slip"),
+        (synthetic.thrust, {"floor": 2500}, "floor must be from 100 to 1950 m, inside the section"),
+        (
+            synthetic.thrust,
+            {"slip": 1600, "spacing": 2000},
+            "the horizon at 600 m must have one piece .* block 1 has none",
+        ),
+        (synthetic.thrust, {"width": 500}, "fault F1 must cross the section, which is 500 m x 2000 m"),
+        (synthetic.thrust, {"slip": 1500}, "spacing must be from 1875"),
+        (synthetic.fault_bend_fold, {"top": 1350}, "floor must be from 1450"),
+        (synthetic.flexural_fold, {"dip": 60}, "radius must be from 2216.* with limbs of 60 degrees .* 2000 m deep"),
         (synthetic.tilt, {"noise": -1}, "noise must be from 0 to 10, but is -1"),
         (synthetic.tilt, {"depth": 1e9}, "depth must be from 500 to 5000"),
     ],

@@ -43,7 +43,9 @@ def test_with_picks_each_section_made_by_computer_is_restored(gallery, name):
     assert gallery.app.wait(LONG)
     assert gallery.app.interpretation.horizons
     assert gallery.app.restoration.stages
-    assert gallery.app.status.text.startswith("Settled.")
+    assert gallery.app.restoration.settled
+    if name not in ("thrust", "fault_bend_fold"):  # the bends of their sheets are a finding
+        assert gallery.app.status.text.startswith("Settled.")
 
 
 @pytest.mark.parametrize("name", ["f3", "teapot"])

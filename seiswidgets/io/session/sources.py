@@ -25,16 +25,7 @@ from seiswidgets.io.opening import open_section
 
 FILE, SYNTHETIC, DATASET = "file", "synthetic", "dataset"
 NAMES = {  # the only functions that a session may call, whatever its file says
-    SYNTHETIC: (
-        "planar_fault",
-        "listric_fault",
-        "faulted_fold",
-        "graben",
-        "domino",
-        "tilt",
-        "sine_fold",
-        "blind_fault",
-    ),
+    SYNTHETIC: tuple(name for name in synthetic.__all__ if name != "Synthetic"),
     DATASET: ("f3", "teapot"),
 }
 MOST_SAMPLES = 4_000_000  # in a synthetic section
