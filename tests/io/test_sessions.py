@@ -249,7 +249,7 @@ def test_nothing_is_unpickled(saved, tmp_path):
             "__import__",
             {},
             SettingError,
-            "the synthetic section must be one of planar_fault, .* '__import__'",
+            "the synthetic section must be one of .*planar_fault, .* '__import__'",
         ),
         ("dataset", "find_file", {}, SettingError, "the dataset section must be one of f3, teapot"),
         ("synthetic", "tilt", {"dip": 1j}, SettingError, r"dip must be a finite number, .* but is 1j"),
