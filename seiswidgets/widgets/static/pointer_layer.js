@@ -322,6 +322,264 @@ function createThrottles(model) {
   };
 }
 
+// shared/bytes.js
+function toNumbers(bytes, NumberType) {
+  return new NumberType(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+}
+
+// maps/triangle_finder.js
+var AXES = (
+  /** @type {const} */
+  [0, 1]
+);
+var MOST_STEPS = 40;
+var TriangleFinder = class {
+  /**
+   * @param {Numbers} vertices x and z in turn
+   * @param {Indices} triangles
+   * @param {number} tolerance the barycentric coordinate -tolerance still counts as inside
+   */
+  constructor(vertices, triangles, tolerance) {
+    this.vertices = vertices;
+    this.triangles = triangles;
+    this.tolerance = tolerance;
+    this.coefficients = barycentricCoefficients(vertices, triangles);
+    this.grid = void 0;
+    this.neighbours = void 0;
+  }
+  /**
+   * A triangle that holds a point, or else the one that it is nearest to within the tolerance; -1 if there is none.
+   *
+   * @param {number} x
+   * @param {number} z
+   */
+  find(x, z) {
+    this.grid ??= new TriangleGrid(this.boundingBoxes());
+    let [nearest, least] = [-1, -this.tolerance];
+    for (const triangle of this.grid.candidates(x, z)) {
+      const smallest = this.leastCoordinate(triangle, x, z);
+      if (smallest >= 0) return triangle;
+      if (smallest >= least) [nearest, least] = [triangle, smallest];
+    }
+    return nearest;
+  }
+  /**
+   * As `find`, but starting from a triangle nearby: from there, cross edges towards the point. A fault is not crossed.
+   *
+   * @param {number} start
+   * @param {number} x
+   * @param {number} z
+   */
+  walk(start, x, z) {
+    this.neighbours ??= neighbours(this.triangles);
+    const { coefficients, tolerance } = this;
+    let triangle = start;
+    for (let step = 0; step < MOST_STEPS && triangle >= 0; step++) {
+      const base = 6 * triangle;
+      const right = x - coefficients[base];
+      const down = z - coefficients[base + 1];
+      const b = coefficients[base + 2] * right + coefficients[base + 3] * down;
+      const c = coefficients[base + 4] * right + coefficients[base + 5] * down;
+      const a = 1 - b - c;
+      if (a >= -tolerance && b >= -tolerance && c >= -tolerance) return triangle;
+      triangle = this.neighbours[3 * triangle + (a <= b && a <= c ? 0 : b <= c ? 1 : 2)];
+    }
+    return this.find(x, z);
+  }
+  /**
+   * @param {number} triangle
+   * @param {number} x
+   * @param {number} z
+   */
+  leastCoordinate(triangle, x, z) {
+    const base = 6 * triangle;
+    const { coefficients } = this;
+    const right = x - coefficients[base];
+    const down = z - coefficients[base + 1];
+    const b = coefficients[base + 2] * right + coefficients[base + 3] * down;
+    const c = coefficients[base + 4] * right + coefficients[base + 5] * down;
+    return Math.min(1 - b - c, b, c);
+  }
+  /**
+   * Barycentric coordinates of a point.
+   *
+   * @param {number} triangle
+   * @param {number} x
+   * @param {number} z
+   * @returns {[number, number, number]}
+   */
+  weights(triangle, x, z) {
+    const [x0, z0, bx, bz, cx, cz] = this.coefficients.subarray(6 * triangle, 6 * triangle + 6);
+    const b = bx * (x - x0) + bz * (z - z0);
+    const c = cx * (x - x0) + cz * (z - z0);
+    return [1 - b - c, b, c];
+  }
+  /** Left, top, right and bottom of each triangle, padded by the tolerance. */
+  boundingBoxes() {
+    const { vertices, triangles } = this;
+    const boxes = new Float64Array(4 * triangles.length / 3);
+    for (let i = 0; i < boxes.length / 4; i++) {
+      for (const axis of AXES) {
+        const [a, b, c] = [0, 1, 2].map((corner) => vertices[2 * triangles[3 * i + corner] + axis]);
+        const [low, high] = [Math.min(a, b, c), Math.max(a, b, c)];
+        const padding = 2 * this.tolerance * (high - low);
+        boxes[4 * i + axis] = low - padding;
+        boxes[4 * i + 2 + axis] = high + padding;
+      }
+    }
+    return boxes;
+  }
+};
+function barycentricCoefficients(vertices, triangles) {
+  const result = new Float64Array(2 * triangles.length);
+  for (let i = 0, to = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [2 * triangles[i], 2 * triangles[i + 1], 2 * triangles[i + 2]];
+    const [x0, z0] = [vertices[a], vertices[a + 1]];
+    const [ux, uz] = [vertices[b] - x0, vertices[b + 1] - z0];
+    const [vx, vz] = [vertices[c] - x0, vertices[c + 1] - z0];
+    const twiceArea = ux * vz - uz * vx || Number.NaN;
+    result[to++] = x0;
+    result[to++] = z0;
+    result[to++] = vz / twiceArea;
+    result[to++] = -vx / twiceArea;
+    result[to++] = -uz / twiceArea;
+    result[to++] = ux / twiceArea;
+  }
+  return result;
+}
+function neighbours(triangles) {
+  const result = new Int32Array(triangles.length).fill(-1);
+  let count = 0;
+  for (const vertex of triangles) count = Math.max(count, vertex + 1);
+  const halfEdges = /* @__PURE__ */ new Map();
+  for (let i = 0; i < triangles.length; i++) {
+    const first = i - i % 3;
+    const [from, to] = [triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]];
+    const twin = halfEdges.get(to * count + from) ?? -1;
+    halfEdges.set(from * count + to, i);
+    if (twin < 0) continue;
+    result[i] = (twin - twin % 3) / 3;
+    result[twin] = first / 3;
+  }
+  return result;
+}
+var TriangleGrid = class {
+  /** @param {Float64Array} boxes */
+  constructor(boxes) {
+    const count = boxes.length / 4;
+    this.across = Math.max(1, Math.ceil(Math.sqrt(count) / 2));
+    this.low = AXES.map((axis) => extreme(Math.min, boxes, axis));
+    const high = AXES.map((axis) => extreme(Math.max, boxes, axis + 2));
+    this.cellSize = AXES.map((axis) => (high[axis] - this.low[axis]) / this.across || 1);
+    this.cells = Array.from({ length: this.across ** 2 }, () => []);
+    for (let triangle = 0; triangle < count; triangle++) {
+      const [left, top, right, bottom] = boxes.subarray(4 * triangle, 4 * triangle + 4);
+      const [lastColumn, lastRow] = [this.index(right, 0), this.index(bottom, 1)];
+      for (let row = this.index(top, 1); row <= lastRow; row++)
+        for (let column = this.index(left, 0); column <= lastColumn; column++)
+          this.cells[row * this.across + column].push(triangle);
+    }
+  }
+  /**
+   * @param {number} value
+   * @param {0 | 1} axis
+   */
+  index(value, axis) {
+    const index = Math.floor((value - this.low[axis]) / this.cellSize[axis]);
+    return Math.max(0, Math.min(index, this.across - 1));
+  }
+  /**
+   * @param {number} x
+   * @param {number} z
+   */
+  candidates(x, z) {
+    return this.cells[this.index(z, 1) * this.across + this.index(x, 0)] ?? [];
+  }
+};
+function extreme(choose, boxes, side) {
+  let result = boxes[side];
+  for (let i = side; i < boxes.length; i += 4) result = choose(result, boxes[i]);
+  return result;
+}
+
+// maps/piecewise_affine_map.js
+var PiecewiseAffineMap = class _PiecewiseAffineMap {
+  /**
+   * @param {TriangleFinder} finder of the triangles before
+   * @param {Numbers} target positions of the vertices after, x and z in turn
+   */
+  constructor(finder, target) {
+    this.finder = finder;
+    this.target = target;
+    this.cachedLogRatios = void 0;
+  }
+  /**
+   * @param {Numbers} source
+   * @param {Numbers} target
+   * @param {Indices} triangles
+   * @param {number} tolerance
+   */
+  static of(source, target, triangles, tolerance) {
+    return new _PiecewiseAffineMap(new TriangleFinder(source, triangles, tolerance), target);
+  }
+  /** @param {import("../pointer_layer/types.js").AffineMapState} state */
+  static fromState({ source, target, triangles, tolerance }) {
+    const [before, after] = [toNumbers(source, Float64Array), toNumbers(target, Float64Array)];
+    return _PiecewiseAffineMap.of(before, after, toNumbers(triangles, Uint32Array), tolerance);
+  }
+  /**
+   * Carry a point to the target; null outside the mesh.
+   *
+   * @param {Point} point
+   * @returns {Point | null}
+   */
+  forward({ x, z }) {
+    const triangle = this.finder.find(x, z);
+    return triangle < 0 ? null : this.carried(triangle, this.finder.weights(triangle, x, z));
+  }
+  /**
+   * The point of a triangle of the target with these barycentric coordinates.
+   *
+   * @param {number} triangle
+   * @param {number[]} weights
+   */
+  carried(triangle, weights) {
+    const carried = { x: 0, z: 0 };
+    weights.forEach((weight, corner) => {
+      const vertex = this.finder.triangles[3 * triangle + corner];
+      carried.x += weight * this.target[2 * vertex];
+      carried.z += weight * this.target[2 * vertex + 1];
+    });
+    return carried;
+  }
+  /** Logarithm of the area before over the area after, of each triangle. */
+  get logRatios() {
+    if (!this.cachedLogRatios) {
+      const { vertices, triangles } = this.finder;
+      const [before, after] = [twiceAreas(vertices, triangles), twiceAreas(this.target, triangles)];
+      this.cachedLogRatios = before.map((area, i) => Math.log(area / after[i]));
+    }
+    return this.cachedLogRatios;
+  }
+};
+function twiceAreas(vertices, triangles) {
+  const areas = new Float64Array(triangles.length / 3);
+  for (let i = 0; i < areas.length; i++) {
+    const [a, b, c] = [2 * triangles[3 * i], 2 * triangles[3 * i + 1], 2 * triangles[3 * i + 2]];
+    const [ux, uz] = [vertices[b] - vertices[a], vertices[b + 1] - vertices[a + 1]];
+    const [vx, vz] = [vertices[c] - vertices[a], vertices[c + 1] - vertices[a + 1]];
+    areas[i] = ux * vz - uz * vx;
+  }
+  return areas;
+}
+function carry(maps, point) {
+  return maps.reduce(
+    (carried, map) => carried && map.forward(carried),
+    /** @type {Point | null} */
+    point
+  );
+}
+
 // shared/svg.js
 var NAMESPACE = "http://www.w3.org/2000/svg";
 var PALE = 170;
@@ -417,11 +675,6 @@ function drawMarks(group, marks, plotArea) {
   }
 }
 
-// shared/bytes.js
-function toNumbers(bytes, NumberType) {
-  return new NumberType(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-}
-
 // pointer_layer/mesh.js
 var UNITS = 10;
 function drawMesh(path, { vertices, edges }, opacity, plotArea) {
@@ -450,131 +703,6 @@ function pathCoordinates(vertices, plotArea) {
     [xs[i], ys[i]] = [Math.round(UNITS * x), Math.round(UNITS * y)];
   }
   return [xs, ys];
-}
-
-// pointer_layer/piecewise_affine_map.js
-var AXES = (
-  /** @type {const} */
-  [0, 1]
-);
-var PiecewiseAffineMap = class {
-  /** @param {import("./types.js").AffineMapState} state */
-  constructor({ source, target, triangles, tolerance }) {
-    this.source = toNumbers(source, Float64Array);
-    this.target = toNumbers(target, Float64Array);
-    this.triangles = toNumbers(triangles, Uint32Array);
-    this.tolerance = tolerance;
-    this.grid = new TriangleGrid(this.boundingBoxes());
-  }
-  /** Left, top, right and bottom of each triangle, padded by the tolerance. */
-  boundingBoxes() {
-    const boxes = new Float64Array(4 * this.triangles.length / 3);
-    for (let i = 0; i < boxes.length / 4; i++) {
-      for (const axis of AXES) {
-        const [a, b, c] = [0, 1, 2].map((corner) => this.source[2 * this.triangles[3 * i + corner] + axis]);
-        const [low, high] = [Math.min(a, b, c), Math.max(a, b, c)];
-        const padding = 2 * this.tolerance * (high - low);
-        boxes[4 * i + axis] = low - padding;
-        boxes[4 * i + 2 + axis] = high + padding;
-      }
-    }
-    return boxes;
-  }
-  /**
-   * Find a triangle that holds a point, or else the triangle that it is nearest to within the tolerance.
-   *
-   * @param {SectionPoint} point
-   * @returns {{ triangle: number, weights: Weights } | null}
-   */
-  locate(point) {
-    let [nearest, least] = [
-      /** @type {{ triangle: number, weights: Weights } | null} */
-      null,
-      -this.tolerance
-    ];
-    for (const triangle of this.grid.candidates(point)) {
-      const weights = this.weights(triangle, point);
-      const smallest = Math.min(...weights);
-      if (smallest >= 0) return { triangle, weights };
-      if (smallest >= least) [nearest, least] = [{ triangle, weights }, smallest];
-    }
-    return nearest;
-  }
-  /**
-   * @param {number} triangle
-   * @param {SectionPoint} point
-   * @returns {Weights}
-   */
-  weights(triangle, { x, z }) {
-    const [a, b, c] = this.triangles.subarray(3 * triangle, 3 * triangle + 3);
-    const source = this.source;
-    const [x0, z0] = [source[2 * a], source[2 * a + 1]];
-    const [bx, bz] = [source[2 * b] - x0, source[2 * b + 1] - z0];
-    const [cx, cz] = [source[2 * c] - x0, source[2 * c + 1] - z0];
-    const [px, pz] = [x - x0, z - z0];
-    const twiceArea = bx * cz - bz * cx;
-    const [second, third] = [(px * cz - pz * cx) / twiceArea, (bx * pz - bz * px) / twiceArea];
-    return [1 - second - third, second, third];
-  }
-  /**
-   * Carry a point to the target; null outside the mesh.
-   *
-   * @param {SectionPoint} point
-   * @returns {SectionPoint | null}
-   */
-  forward(point) {
-    const located = this.locate(point);
-    if (!located) return null;
-    const carried = { x: 0, z: 0 };
-    located.weights.forEach((weight, corner) => {
-      const vertex = this.triangles[3 * located.triangle + corner];
-      carried.x += weight * this.target[2 * vertex];
-      carried.z += weight * this.target[2 * vertex + 1];
-    });
-    return carried;
-  }
-};
-function carry(maps, point) {
-  return maps.reduce(
-    (carried, map) => carried && map.forward(carried),
-    /** @type {SectionPoint | null} */
-    point
-  );
-}
-var TriangleGrid = class {
-  /** @param {Float64Array} boxes */
-  constructor(boxes) {
-    const count = boxes.length / 4;
-    this.across = Math.max(1, Math.ceil(Math.sqrt(count) / 2));
-    this.low = AXES.map((axis) => extreme(Math.min, boxes, axis));
-    const high = AXES.map((axis) => extreme(Math.max, boxes, axis + 2));
-    this.cellSize = AXES.map((axis) => (high[axis] - this.low[axis]) / this.across || 1);
-    this.cells = Array.from({ length: this.across ** 2 }, () => []);
-    for (let triangle = 0; triangle < count; triangle++) {
-      const [left, top, right, bottom] = boxes.subarray(4 * triangle, 4 * triangle + 4);
-      const [lastColumn, lastRow] = [this.index(right, 0), this.index(bottom, 1)];
-      for (let row = this.index(top, 1); row <= lastRow; row++)
-        for (let column = this.index(left, 0); column <= lastColumn; column++)
-          this.cells[row * this.across + column].push(triangle);
-    }
-  }
-  /**
-   * @param {number} value
-   * @param {0 | 1} axis
-   */
-  index(value, axis) {
-    const index = Math.floor((value - this.low[axis]) / this.cellSize[axis]);
-    return Math.max(0, Math.min(index, this.across - 1));
-  }
-  /** @param {SectionPoint} point */
-  candidates({ x, z }) {
-    return this.cells[this.index(z, 1) * this.across + this.index(x, 0)] ?? [];
-  }
-};
-function extreme(choose, boxes, side) {
-  let result = boxes[side];
-  for (let i = side; i < boxes.length; i += 4) result = choose(result, boxes[i]);
-  return result;
 }
 
 // pointer_layer/plot_area.js
@@ -805,7 +933,7 @@ var LayerView = class {
   /** Set the carried position. It is never saved: other layers need it, the kernel does not. */
   carryPointer() {
     if (!this.plotArea.isReady) return;
-    this.maps ??= this.model.get("chain").map((state) => new PiecewiseAffineMap(state));
+    this.maps ??= this.model.get("chain").map((state) => PiecewiseAffineMap.fromState(state));
     const carried = this.pointer && carry(this.maps, this.plotArea.toSection(this.pointer));
     this.model.set("carried", carried ?? {});
   }

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { carry, PiecewiseAffineMap } from "../../../seiswidgets/widgets/js/pointer_layer/piecewise_affine_map.js";
+import { carry, PiecewiseAffineMap } from "../../../seiswidgets/widgets/js/maps/piecewise_affine_map.js";
 
 const SQUARE = [0, 0, 8, 0, 8, 8, 0, 8]; // powers of two are carried without rounding
 const TOLERANCE = 1e-3;
@@ -20,7 +20,7 @@ function message(numbers) {
 
 /** @param {number[]} target */
 function mapTo(target) {
-  return new PiecewiseAffineMap({
+  return PiecewiseAffineMap.fromState({
     source: message(new Float64Array(SQUARE)),
     target: message(new Float64Array(target)),
     triangles: message(new Uint32Array([0, 1, 2, 0, 2, 3])),

@@ -1,12 +1,12 @@
 // One view of a pointer layer: its elements, what they show, and what it sends to the kernel.
 
+import { carry, PiecewiseAffineMap } from "../maps/piecewise_affine_map.js";
 import { append } from "../shared/svg.js";
 import { drawAxes } from "./axes.js";
 import { drawCross, drawRubberBand } from "./cursors.js";
 import { modifiers } from "./keyboard.js";
 import { drawMarks } from "./marks.js";
 import { drawMesh } from "./mesh.js";
-import { carry, PiecewiseAffineMap } from "./piecewise_affine_map.js";
 import { PlotArea } from "./plot_area.js";
 import { drawStrokes } from "./strokes.js";
 
@@ -119,7 +119,7 @@ export class LayerView {
   /** Set the carried position. It is never saved: other layers need it, the kernel does not. */
   carryPointer() {
     if (!this.plotArea.isReady) return;
-    this.maps ??= this.model.get("chain").map((state) => new PiecewiseAffineMap(state));
+    this.maps ??= this.model.get("chain").map((state) => PiecewiseAffineMap.fromState(state));
     const carried = this.pointer && carry(this.maps, this.plotArea.toSection(this.pointer));
     this.model.set("carried", carried ?? {});
   }

@@ -3,7 +3,7 @@
 /**
  * Copy the bytes, since they may start at an offset that the number type does not allow.
  *
- * @template {Float64Array | Uint32Array} Numbers
+ * @template {Uint8Array | Float64Array | Float32Array | Uint32Array | Uint16Array | Int16Array} Numbers
  * @param {DataView} bytes
  * @param {new (buffer: ArrayBufferLike) => Numbers} NumberType
  */
