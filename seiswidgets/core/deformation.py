@@ -7,6 +7,7 @@ from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.errors import SettingError
 
+USUAL_SPAN = 1.1  # colours end at 10%, so that pictures can be compared, unless the user rescales them
 LEAST_SPAN = 1.01  # of a histogram in which no area has changed
 AREA_RATIO_COLOURS = "RdBu_r"  # red is compression, blue expansion; distinguishable with colour blindness
 SPANS = (1.02, 1.05, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0)  # area ratios at which colours may end

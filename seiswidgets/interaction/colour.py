@@ -103,7 +103,7 @@ class RatioColouring:
         scaled = np.clip(np.log(ratio) / np.log(self.span), -1, 1)
         return np.where(np.isnan(scaled), 0, np.rint(128 + 127 * scaled)).astype(np.uint8)
 
-    def palette(self, brush: tuple[float, float] | None = None) -> np.ndarray:
+    def palette(self, brush: tuple[float, float] | None = None, faded: float = FADED) -> np.ndarray:
         """Red, green, blue and alpha of each level, shape (256, 4), uint8; level 0 is transparent.
 
         Ratios near 1 are the most transparent, so that rock that kept its area looks as it is.
@@ -112,6 +112,8 @@ class RatioColouring:
         ----------
         brush : (low, high), optional
             Area ratios: between them the map is opaque, outside it is nearly transparent.
+        faded : float
+            Factor on the opacity outside the brush.
         """
         colours = np.vstack([np.zeros(4), mpl.colormaps[AREA_RATIO_COLOURS](np.linspace(0, 1, 255))])
         level = np.arange(256)
@@ -119,8 +121,15 @@ class RatioColouring:
         if brush is not None:
             low, high = self.levels(brush)
             inside = (level >= max(low, 1)) & (level <= high)
-            colours[:, 3] = np.where(inside, 1.0, FADED * colours[:, 3])
+            colours[:, 3] = np.where(inside, 1.0, faded * colours[:, 3])
         return np.rint(255 * colours).astype(np.uint8)
+
+
+def checked_span(span: float) -> float:
+    """Validate the end of a scale of area ratios; SettingError unless it is finite and above 1."""
+    if not 1 < span < np.inf:
+        raise SettingError(f"span must be above 1, since the colours run from 1 / span to span, but is {span:g}")
+    return float(span)
 
 
 def encode_png(levels: np.ndarray, palette: np.ndarray, quick: bool = False) -> bytes:

@@ -248,7 +248,8 @@ class RestorationApp(WithParts, VBox):
         bind(self, "steps", workspace, lambda document: document.plan.steps, self._change_steps)
         link((workspace, "restoration"), (self, "restoration"))
         link((self, "live"), (self.status, "live"))
-        link((self.histogram, "brush"), (self.panes, "brush"))
+        for name in ("brush", "span"):
+            link((self.histogram, name), (self.panes, name))
         workspace.observe(lambda change: self.reports.show(change.new), "restoration")
         self.panes.on_reading(self._mark)
 

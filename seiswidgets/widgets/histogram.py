@@ -7,11 +7,11 @@ import numpy as np
 from matplotlib.colors import to_hex
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike
-from traitlets import Bunch, Dict, Float, List, Unicode, observe, validate
+from traitlets import Bool, Bunch, Dict, Float, List, Unicode, observe, validate
 
-from seiswidgets.core.deformation import area_ratio_histogram, weighted_percentiles
+from seiswidgets.core.deformation import USUAL_SPAN, area_ratio_histogram, weighted_percentiles
 from seiswidgets.errors import SettingError
-from seiswidgets.interaction.colour import RatioColouring
+from seiswidgets.interaction.colour import RatioColouring, checked_span
 from seiswidgets.widgets.assets import asset
 from seiswidgets.widgets.closing import WithParts
 
@@ -20,6 +20,7 @@ ROUND_RATIOS = (  # the roundest first
     *(1, 10, 0.1, 100, 0.01, 2, 0.5, 5, 0.2, 1.25, 0.8),
     *(1.1, 0.9, 1.05, 0.95, 1.02, 0.98, 1.01, 0.99, 1.005, 0.995),
 )
+LEAST_SHARE = 1e-6  # of the area, above which a bar begins on a logarithmic axis
 TICK_DISTANCE = 0.09  # least distance between two ticks, as a share of the axis
 
 
@@ -45,15 +46,20 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
         everything beyond.
     mark : float or None
         Area ratio whose bar is marked.
+    span : float
+        Bars and colours run from 1 / span to span; what lies beyond is counted in the end bars.
+    log_shares : bool
+        Whether the axis of the shares is logarithmic.
     summary, brushed : str
-        Text above the bars: median and percentiles by area, and the brush with its share of the area.
+        Text above the bars: median and percentiles by area, and the scale; the brush with its share of the area.
     bars : dict
-        The drawing: "edges", "shares", "colours", the ticks "x" and "y" with their labels, and "decimals"; or empty.
+        The drawing: "edges", "shares", "colours", the ticks "x" and "y" with their labels, "decimals", and "floor", the
+        lowest share of a logarithmic axis, or 0; or empty.
 
     Raises
     ------
     SettingError
-        If there is no bin, the brush is not a range of ratios above 0; and as for `show`.
+        If there is no bin, the brush is not a range of ratios above 0, the span is not above 1; and as for `show`.
     """
 
     _esm = asset("histogram.js")
@@ -64,6 +70,8 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
     brushed = Unicode().tag(sync=True)
     brush: List[float] = List().tag(sync=True)
     mark = Float(None, allow_none=True).tag(sync=True)
+    log_shares = Bool(False).tag(sync=True)
+    span = Float(USUAL_SPAN)
 
     def __init__(
         self, ratio: ArrayLike | None = None, areas: ArrayLike | None = None, *, bins: int = 41, **settings: Any
@@ -71,15 +79,14 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
         self.check_settings(settings)
         if bins < 1:
             raise SettingError(f"a histogram needs at least one bin, but bins is {bins!r}")
-        self._bins = bins
-        self._ratio = self._areas = np.empty(0)
+        self._bins, self._ratio, self._areas = bins, np.empty(0), np.empty(0)
         super().__init__(**settings)
         self.show([] if ratio is None else ratio, areas)
 
     @property
     def colouring(self) -> RatioColouring:
         """Colours of the bars, for a map beside them."""
-        return RatioColouring.of(self._ratio, self._areas)
+        return RatioColouring(self.span)
 
     def show(self, ratio: ArrayLike, areas: ArrayLike | None = None) -> None:
         """Show other area ratios; the brush stays.
@@ -97,10 +104,21 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
             If the shapes differ, a ratio is not above 0, an area is below 0, or all areas are 0.
         """
         self._ratio, self._areas = _checked(ratio, areas)
+        self._draw()
+
+    @observe("span", "log_shares")
+    def _draw(self, change: Bunch | None = None) -> None:
+        has_ratio = len(self._ratio) > 0
         with self.hold_sync():
-            self.bars = _bars(self._ratio, self._areas, self._bins) if len(self._ratio) else {}
-            self.summary = _summary(self._ratio, self._areas) if len(self._ratio) else EMPTY
+            self.bars = (
+                _bars(self._ratio, self._areas, self._bins, self.colouring, self.log_shares) if has_ratio else {}
+            )
+            self.summary = _summary(self._ratio, self._areas, self.span) if has_ratio else EMPTY
             self._show_brush()
+
+    @validate("span")
+    def _valid_span(self, proposal: Bunch) -> float:
+        return checked_span(proposal.value)
 
     @validate("brush")
     def _valid_brush(self, proposal: Bunch) -> list[float]:
@@ -143,24 +161,40 @@ def _checked(ratio: ArrayLike, areas: ArrayLike | None) -> tuple[np.ndarray, np.
     return ratios, weights
 
 
-def _bars(ratio: np.ndarray, areas: np.ndarray, bins: int) -> dict[str, Any]:
-    colouring = RatioColouring.of(ratio, areas)
+def _bars(ratio: np.ndarray, areas: np.ndarray, bins: int, colouring: RatioColouring, is_log: bool) -> dict[str, Any]:
     edges, shares = area_ratio_histogram(ratio, areas, bins, colouring.span)
     colours = colouring.palette()[colouring.levels(np.sqrt(edges[:-1] * edges[1:])), :3] / 255
-    percents = [float(percent) for percent in MaxNLocator(3).tick_values(0, 100 * shares.max())]
+    floor = _decade_below(shares[shares > 0].min()) if is_log else 0.0
     return {
         "edges": edges.tolist(),
         "shares": shares.tolist(),
         "colours": [to_hex(colour) for colour in colours],
         "x": [[tick, f"{tick:g}"] for tick in ratio_ticks(edges[-1])],
-        "y": [[percent / 100, f"{percent:g}"] for percent in percents],
+        "y": [[percent / 100, f"{percent:g}"] for percent in _percents(100 * shares.max(), 100 * floor)],
+        "floor": floor,
         "decimals": max(2, -int(np.floor(np.log10(edges[1] / edges[0] - 1)))),  # enough to distinguish two edges
     }
 
 
-def _summary(ratio: np.ndarray, areas: np.ndarray) -> str:
+def _percents(most: float, floor: float) -> list[float]:
+    """Ticks of the shares up to the highest, in percent: decades from a floor above 0, or else round numbers."""
+    if floor:
+        decades = np.arange(np.log10(floor), np.log10(most) + 0.5)
+        return [float(f"{percent:.3g}") for percent in 10**decades]
+    return [float(percent) for percent in MaxNLocator(3).tick_values(0, most)]
+
+
+def _decade_below(share: float) -> float:
+    """Power of 10 below a share, so that its bar has a height."""
+    return float(10.0 ** np.ceil(np.log10(max(share, LEAST_SHARE)) - 1))
+
+
+def _summary(ratio: np.ndarray, areas: np.ndarray, span: float) -> str:
     low, median, high = weighted_percentiles(ratio, areas, (1, 50, 99))
-    return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f}"
+    beyond = 100 * areas[(ratio < 1 / span) | (ratio > span)].sum() / areas.sum()
+    rest = f", {beyond:.2g}% of the area beyond" if beyond > 0 else ""
+    rescaled = "" if span == USUAL_SPAN else ", rescaled"
+    return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f}; scale ±{100 * (span - 1):.3g}%{rescaled}{rest}"
 
 
 def ratio_ticks(span: float) -> list[float]:

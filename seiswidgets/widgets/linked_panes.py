@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 from ipywidgets import HTML, GridBox, Layout, VBox, jslink
-from traitlets import Bool, Bunch, Float, Instance, List, observe
+from traitlets import Bool, Bunch, Float, Instance, List, observe, validate
 
+from seiswidgets.core.deformation import USUAL_SPAN
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.colour import RatioColouring, clip_limit
+from seiswidgets.interaction.colour import FADED, RatioColouring, checked_span, clip_limit
 from seiswidgets.interaction.drawing import Point
 from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.projection import PaneProjection
@@ -32,6 +33,7 @@ READOUT = (
     'overflow: hidden; text-overflow: ellipsis">{}</div>'
 )
 HEADING = '<div style="font-weight: 600; padding-left: 64px">{}</div>'
+BRUSHED_ALONE = 0.6  # opacity of what is brushed while the map itself is not shown
 SHARED = ("colours", "clip", "gain", "polarity", "height")
 
 
@@ -90,8 +92,10 @@ class LinkedPanes(WithParts, VBox):
         True to show the same window in both panes.
     deformation, mesh : float
         Opacity of the area ratio's colours and of the mesh, from 0 to 1.
+    span : float
+        The colours of the area ratio run from 1 / span to span.
     brush : list
-        Smallest and largest area ratio to highlight, or empty.
+        Smallest and largest area ratio to highlight, or empty; highlighted even if the opacity is 0.
     readout : HTML
         Line with the values at the pointer.
 
@@ -105,6 +109,7 @@ class LinkedPanes(WithParts, VBox):
     zoom_linked = Bool(False)
     deformation = Float(0.0, min=0.0, max=1.0)
     mesh = Float(0.0, min=0.0, max=1.0)
+    span = Float(USUAL_SPAN)
     brush: List[float] = List()
 
     def __init__(self, restoration: Restoration | Section, *, height: int = 420, **settings: Any):
@@ -166,6 +171,7 @@ class LinkedPanes(WithParts, VBox):
                     self._draw_ratio()
             if snapshot.moving:
                 self._draw_ratio()
+            self._read_again()
 
     def _draw_snapshot(self, snapshot: Snapshot) -> None:
         """Draw the sections and the mesh, and link the cursors."""
@@ -208,16 +214,22 @@ class LinkedPanes(WithParts, VBox):
         self.original.mesh = section.from_rock(first.mesh.vertices), first.mesh.triangles
         self.restored.mesh = section.from_rock(last.vertices), last.mesh.triangles
 
-    @observe("deformation", "brush")
+    @validate("span")
+    def _valid_span(self, proposal: Bunch) -> float:
+        return checked_span(proposal.value)
+
+    @observe("deformation", "brush", "span")
     def _draw_ratio(self, change: Bunch | None = None) -> None:
         snapshot = self._snapshot
+        opacity = self.deformation or (BRUSHED_ALONE if self.brush else 0.0)
         for pane in (self.original, self.restored):
-            pane.overlay_opacity = self.deformation
-        if not (snapshot and snapshot.restoration.stages and self.deformation):
+            pane.overlay_opacity = opacity
+        if not (snapshot and snapshot.restoration.stages and opacity):
             self.original.overlay = self.restored.overlay = None
             return
-        colouring = RatioColouring.of(snapshot.ratio_before.ratio)
-        palette = colouring.palette((self.brush[0], self.brush[1]) if self.brush else None)
+        colouring = RatioColouring(self.span)
+        brush = (self.brush[0], self.brush[1]) if self.brush else None
+        palette = colouring.palette(brush, FADED if self.deformation else 0.0)
         for pane, ratio_map in ((self.original, snapshot.ratio_before), (self.restored, snapshot.ratio_after)):
             pane.overlay = Overlay(colouring.levels(ratio_map.ratio), palette, ratio_map.window)
 
@@ -245,6 +257,12 @@ class LinkedPanes(WithParts, VBox):
     def _zoom_too(self, pane: SectionPane, view: Viewport) -> None:
         if self.zoom_linked and pane.view.window != view.window:
             pane.view = replace(pane.view, window=view.window)
+
+    def _read_again(self) -> None:
+        """Let the readout follow a picture that changes under a pointer at rest."""
+        for pane in (self.original, self.restored):
+            if pane.pointer is not None:
+                self._read(pane.pointer, pane)
 
     def _read(self, point: Point | None, pane: SectionPane) -> None:
         reading = None if point is None else self._reading(point, pane)

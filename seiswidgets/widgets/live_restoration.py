@@ -50,7 +50,7 @@ class LiveRestoration:
         self._timeline, self._histogram = timeline, histogram
         self._requested = False  # whether the user pressed Restore: only then is an error shown as an alert
         self._restorer = Restorer(self._draw, status.show_progress, self._fail)
-        self._player = TimelinePlayer(panes, picker.redraw)
+        self._player = TimelinePlayer(panes, self._show_moment)
         workspace.observe(self._take_document, "document")
         workspace.observe(self._take_settled, "settled")
         workspace.observe(self._take_restoration, "restoration")
@@ -150,6 +150,11 @@ class LiveRestoration:
         self._histogram.show(snapshot.ratio_before.ratio.ravel() if snapshot.restoration.stages else [])
         if restoration is not None:
             self._workspace.restoration = restoration
+
+    def _show_moment(self, snapshot: Snapshot) -> None:
+        """Let lines and histogram follow a moment on the timeline."""
+        self._picker.redraw()
+        self._histogram.show(snapshot.ratio_before.ratio.ravel())
 
     def _show_verdict(self, verdict: Verdict | None, is_preview: bool) -> None:
         if verdict is not None:

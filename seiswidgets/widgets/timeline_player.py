@@ -16,11 +16,11 @@ class TimelinePlayer:
     Parameters
     ----------
     panes : LinkedPanes
-    drawn : callable()
+    drawn : callable(Snapshot)
         Called after each moment that is drawn.
     """
 
-    def __init__(self, panes: LinkedPanes, drawn: Callable[[], None]):
+    def __init__(self, panes: LinkedPanes, drawn: Callable[[Snapshot], None]):
         self._panes, self._drawn, self._runner = panes, drawn, JobRunner()
 
     def show(self, restoration: Restoration, time: float) -> None:
@@ -43,4 +43,4 @@ class TimelinePlayer:
 
     def _draw(self, snapshot: Snapshot) -> None:
         self._panes.show(snapshot)
-        self._drawn()
+        self._drawn(snapshot)

@@ -108,7 +108,7 @@ def _settings_of(app: RestorationApp) -> list[tuple[HasTraits, str]]:
         app: ("live",),
         app.picker: ("snap", "window", "follow"),
         app.panes.original: ("colours", "clip", "gain", "polarity"),
-        app.panes: ("deformation", "mesh", "zoom_linked"),
+        app.panes: ("deformation", "mesh", "span", "zoom_linked"),
     }
     return [(owner, name) for owner, names in kept.items() for name in names]
 

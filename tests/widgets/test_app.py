@@ -81,7 +81,7 @@ def test_picks_drawn_by_hand_restore_by_themselves(new_app, case):
     assert bed.flatness < case.section.dz / 10
     assert app.timeline.labels == ["unfault", "flatten"]
     assert app.timeline.time == 2
-    assert "area ratio" in app.reports.page.value
+    assert "throw" in app.reports.page.value
 
 
 def test_a_line_drawn_in_the_restored_pane_lies_where_the_restoration_says(app, case):
@@ -255,6 +255,9 @@ def test_the_timeline_shows_every_moment(app, case):
         assert len(shown.stages) == int(np.ceil(time))
         points = [(500.0, 500.0), (3000.0, 1500.0)]
         np.testing.assert_allclose(shown.to_restored(points), app.restoration.at(time).to_restored(points))
+        ratio = app.restoration.at(time).area_ratio_at([points[0]])[0]
+        assert f"median {np.nanmedian(app.panes.shown.ratio_before.ratio):.3f}" in app.histogram.summary
+        assert time or ratio == 1
     app.timeline.time = 2.0
     assert app.panes.shown.restoration is app.restoration
 
@@ -263,6 +266,8 @@ def test_histogram_and_panes_share_brush_and_mark(app):
     app.panes.deformation = 0.5
     app.histogram.brush = [1.0, 1.1]
     assert app.panes.brush == [1.0, 1.1]
+    app.panes.span = 1.3
+    assert app.histogram.span == 1.3
     x, y = app.panes.original.view.to_pixels((1000.0, 1000.0)).tolist()
     tell(app.panes.original, "hover", x=x, y=y)
     assert app.histogram.mark == pytest.approx(app.restoration.area_ratio_at([(1000.0, 1000.0)])[0])

@@ -69,7 +69,7 @@ def test_the_span_is_that_of_figures(numbers):
 
 def test_bars_are_the_histogram_in_the_colours_of_the_map(numbers):
     widget = sw.DeformationHistogram(*numbers)
-    edges, shares = area_ratio_histogram(*numbers, span=colour_span(*numbers))
+    edges, shares = area_ratio_histogram(*numbers, span=1.1)
     assert widget.bars["edges"] == edges.tolist()
     assert widget.bars["shares"] == shares.tolist()
     middles = np.sqrt(edges[:-1] * edges[1:])
@@ -83,6 +83,29 @@ def test_median_and_percentiles_are_by_area(numbers):
     assert f"median {median:.3f}" in summary
     assert f"P1 {low:.3f}" in summary
     assert f"P99 {high:.3f}" in summary
+
+
+def test_the_scale_is_fixed_unless_it_is_set_and_says_so(numbers):
+    widget = sw.DeformationHistogram([0.99, 1.01])
+    edges = widget.bars["edges"]
+    assert widget.summary.endswith("; scale ±10%")
+    widget.show([0.5, 1.0, 1.0, 2.0])
+    assert widget.bars["edges"] == edges
+    assert widget.summary.endswith("; scale ±10%, 50% of the area beyond")
+    widget.span = 1.25
+    assert widget.bars["edges"][-1] == pytest.approx(1.25)
+    assert "scale ±25%, rescaled" in widget.summary
+    with pytest.raises(sw.SettingError, match="span must be above 1"):
+        widget.span = 1.0
+
+
+def test_a_logarithmic_axis_shows_rare_ratios():
+    widget = sw.DeformationHistogram([0.95, 1.0], [1e-4, 1.0], log_shares=True)
+    assert widget.bars["floor"] == pytest.approx(1e-5)
+    assert [label for _, label in widget.bars["y"]] == ["0.001", "0.01", "0.1", "1", "10", "100"]
+    widget.log_shares = False
+    assert widget.bars["floor"] == 0
+    assert widget.bars["y"][0] == [0, "0"]
 
 
 def test_areas_count(numbers):

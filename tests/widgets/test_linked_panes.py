@@ -45,6 +45,19 @@ def test_both_panes_fit_the_same_window_which_holds_all_rock(panes, restored):
     assert (corners <= (x_max, z_max) + slack).all()
 
 
+def test_the_readout_follows_what_changes_under_a_pointer_at_rest(panes, restored):
+    point = (1500.0, 900.0)
+    hover(panes.original, point)
+    panes.show(Snapshot.of(restored.at(1.0)))
+    (x, z), *_ = restored.at(1.0).to_restored([point]).tolist()
+    assert f"restored: x {x:.6g} m, depth {z:.6g} m" in panes.readout.value
+    before = panes.readout.value
+    tell(panes.original, "key", key="+")
+    assert panes.readout.value != before
+    x, z = panes.original.pointer
+    assert f"present day: x {x:.6g} m, depth {z:.6g} m" in panes.readout.value
+
+
 def test_a_section_alone_is_its_own_restoration(case):
     panes = LinkedPanes(case.section)
     appear(panes.original, panes.restored)
@@ -129,6 +142,11 @@ def test_mesh_and_deformation_are_shown_in_both_panes(panes, restored):
     assert (brushed[~lit, 3] <= full[~lit, 3]).all()
     np.testing.assert_array_equal(panes.restored.overlay.palette, brushed)
     panes.deformation = panes.mesh = 0.0
+    alone = panes.original.overlay.palette
+    assert panes.original.overlay_opacity > 0
+    assert (alone[lit] == brushed[lit]).all()
+    assert not alone[~lit, 3].any()
+    panes.brush = []
     assert panes.original.overlay is None
     assert panes.restored.mesh is None
 

@@ -9,7 +9,7 @@ import { append } from "./shared/svg.js";
 const HELP = "Arrow keys brush a bar, with Shift several; Escape clears.";
 const SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio";
 const PAUSE = 50; // ms between two messages
-const CHANGES = "change:bars change:summary change:brushed change:brush change:mark";
+const CHANGES = "change:bars change:summary change:brushed change:brush change:mark change:log_shares";
 
 /**
  * @typedef {object} Traits
@@ -18,6 +18,7 @@ const CHANGES = "change:bars change:summary change:brushed change:brush change:m
  * @property {string} brushed
  * @property {number[]} brush
  * @property {number | null} mark
+ * @property {boolean} log_shares
  */
 
 /** @typedef {import("@anywidget/types").AnyModel<Traits>} Model */
@@ -62,9 +63,14 @@ function createElements(el) {
   summary.title = SUMMARY_TOOLTIP;
   const brushed = appendDiv(head, "brushed");
   brushed.setAttribute("aria-live", "polite");
+  const log = document.createElement("button");
+  log.className = "log";
+  log.textContent = "log";
+  log.title = "Logarithmic axis for the share of the area";
+  head.append(log);
   const chart = append(el, "svg", "chart", { tabindex: 0, role: "application" });
   const drawing = append(chart, "g", "drawing", { transform: `translate(${MARGIN.left} ${MARGIN.top})` });
-  return { summary, brushed, chart, drawing };
+  return { summary, brushed, log, chart, drawing };
 }
 
 /**
@@ -96,13 +102,14 @@ function createBrush(model, getSize) {
 
 /** @type {import("@anywidget/types").Render<Traits>} */
 function render({ model, el }) {
-  const { summary, brushed, chart, drawing } = createElements(el);
+  const { summary, brushed, log, chart, drawing } = createElements(el);
   let size = { width: 0, height: 0 };
 
   function draw() {
     const bars = barsOf(model);
     summary.textContent = model.get("summary");
     brushed.textContent = model.get("brushed");
+    log.setAttribute("aria-pressed", String(model.get("log_shares")));
     el.classList.toggle("empty", !bars);
     chart.setAttribute("aria-label", `Histogram of the area ratio: ${model.get("summary")}. ${HELP}`);
     if (bars && size.width >= 1 && size.height >= 1)
@@ -118,6 +125,10 @@ function render({ model, el }) {
   const controller = new AbortController();
   const xOf = (/** @type {PointerEvent} */ event) => event.clientX - chart.getBoundingClientRect().left - MARGIN.left;
   createBrush(model, () => size).listenTo(chart, xOf, controller.signal);
+  log.addEventListener("click", () => {
+    model.set("log_shares", !model.get("log_shares"));
+    model.save_changes();
+  });
   const stopKeepingKeys = keepKeys(() => el);
   model.on(CHANGES, draw);
   observer.observe(chart);

@@ -19,6 +19,7 @@ from traitlets import Bunch, Enum, Float, HasTraits
 
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.solve import MOST_ITERATIONS
+from seiswidgets.interaction.colour import RatioColouring
 from seiswidgets.widgets.binding import bind, bind_control
 from seiswidgets.widgets.linked_panes import LinkedPanes
 from seiswidgets.widgets.section_view.pane import SectionPane
@@ -57,7 +58,29 @@ class DisplayControls(VBox):
         ]
         for owner, name, widget in rows:
             bind_control(owner, name, widget)
-        super().__init__([_exaggeration(first), *(widget for _, _, widget in rows)])
+        super().__init__([_exaggeration(first), *(widget for _, _, widget in rows), _scale(panes)])
+
+
+def _scale(panes: LinkedPanes) -> HBox:
+    """Field of the percentage at which the colours of the area ratio end, and a button that fits it to the rock."""
+    look = {"style": STYLE, "layout": {"flex": "1", "width": "auto"}}
+    text = BoundedFloatText(min=0.1, max=400, step=1, description="colours end at (%)", **look)
+    fit = Button(
+        description="Fit", tooltip="Fit the scale of the colours to this restoration", layout={"width": "auto"}
+    )
+
+    def percentage() -> float:
+        return float(f"{100 * (panes.span - 1):.3g}")
+
+    def enter(change: Bunch) -> None:
+        if change.new != percentage():
+            panes.span = 1 + change.new / 100
+
+    text.value = percentage()
+    text.observe(enter, "value")
+    panes.observe(lambda change: setattr(text, "value", percentage()), "span")
+    fit.on_click(lambda _: panes.set_trait("span", RatioColouring.of(panes.shown.ratio_before.ratio).span))
+    return HBox([text, fit])
 
 
 def _exaggeration(pane: SectionPane) -> BoundedFloatText:

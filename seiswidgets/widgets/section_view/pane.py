@@ -112,6 +112,7 @@ class SectionPane(WithParts, VBox):
         self._mesh: Mesh | None = None
         self._gesture_listeners: list[GestureListener] = []
         self._hover_listeners: list[HoverListener] = []
+        self._pointer: Point | None = None  # in css pixels of the plot area; None while it is elsewhere
         self.projection = lambda: PaneProjection(self.view)
         self._painter = Painter(section, _plot_area())
         self._painter.canvas.add_class("seiswidgets-plot")
@@ -187,6 +188,14 @@ class SectionPane(WithParts, VBox):
         """Call a function with the point (x, z) under the pointer, a few times a second; None when it leaves."""
         self._hover_listeners.append(callback)
 
+    @property
+    def pointer(self) -> Point | None:
+        """Point (x, z) under the pointer; None while it is elsewhere."""
+        if self._pointer is None:
+            return None
+        x, z = self.view.to_section(self._pointer).tolist()
+        return x, z
+
     def take_keys(self, names: Sequence[str]) -> None:
         """Pass these keys on as gestures, besides the pane's own."""
         self.layer.hotkeys = list(dict.fromkeys([*self.layer.hotkeys, *names]))
@@ -221,6 +230,8 @@ class SectionPane(WithParts, VBox):
             self.layer.axes, self.layer.window = axes_state(self.view, LEFT), list(self.view.window)
             self.layer.size = self.view.size.tolist()
             self._painter.draw(self.view)
+        if self._pointer is not None:  # which is at another point now
+            self._call_hover_listeners()
 
     @observe("exaggeration")
     def _take_exaggeration(self, change: Bunch) -> None:
@@ -264,9 +275,13 @@ class SectionPane(WithParts, VBox):
             self._resize(message)
         elif message.kind == "rest":
             self._painter.sharpen(self.view)
-        elif not self._is_consumed(message):
-            self.view = self._navigation.navigate(self.view, message)
-        self._call_hover_listeners(message)
+        else:
+            if message.kind in ("hover", "drag", "leave"):
+                self._pointer = None if message.kind == "leave" else message.pixel
+            if not self._is_consumed(message):
+                self.view = self._navigation.navigate(self.view, message)
+            if message.kind in ("hover", "drag", "leave"):
+                self._call_hover_listeners()
 
     def _is_consumed(self, message: PointerMessage) -> bool:
         if message.pan or self._navigation.is_panning:
@@ -274,12 +289,9 @@ class SectionPane(WithParts, VBox):
         gesture = self._gestures.read(message, self.projection())
         return gesture is not None and any(listen(gesture) for listen in self._gesture_listeners)
 
-    def _call_hover_listeners(self, message: PointerMessage) -> None:
-        if message.kind in ("hover", "drag", "leave"):
-            x, z = self.view.to_section(message.pixel).tolist()
-            point = None if message.kind == "leave" else (x, z)
-            for listen in self._hover_listeners:
-                listen(point)
+    def _call_hover_listeners(self) -> None:
+        for listen in self._hover_listeners:
+            listen(self.pointer)
 
     def _resize(self, message: PointerMessage) -> None:
         """Adopt the size of the plot area in the browser; send everything to a page that has just appeared."""

@@ -10,13 +10,15 @@ var Scale = class {
    * @param {Bars} bars
    * @param {Size} size
    */
-  constructor({ edges, shares }, { width, height }) {
+  constructor({ edges, shares, floor }, { width, height }) {
     this.count = shares.length;
     this.width = width;
     this.height = height;
     this.low = Math.log(edges[0]);
     this.high = Math.log(edges[this.count]);
-    this.highest = HEADROOM * Math.max(...shares);
+    this.floor = floor;
+    const highest = Math.max(...shares);
+    this.highest = floor ? highest * (highest / floor) ** (HEADROOM - 1) : HEADROOM * highest;
   }
   get barWidth() {
     return this.width / this.count;
@@ -35,7 +37,9 @@ var Scale = class {
   }
   /** @param {number} share */
   y(share) {
-    return this.height * (1 - share / this.highest);
+    const { floor, highest } = this;
+    if (!floor) return this.height * (1 - share / highest);
+    return this.height * (1 - Math.max(0, Math.log(share / floor)) / Math.log(highest / floor));
   }
   /** @param {number} x */
   barAt(x) {
@@ -277,7 +281,7 @@ function keepKeys(findBox) {
 var HELP = "Arrow keys brush a bar, with Shift several; Escape clears.";
 var SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio";
 var PAUSE = 50;
-var CHANGES = "change:bars change:summary change:brushed change:brush change:mark";
+var CHANGES = "change:bars change:summary change:brushed change:brush change:mark change:log_shares";
 function appendDiv(parent, className) {
   const div = document.createElement("div");
   div.className = className;
@@ -305,9 +309,14 @@ function createElements(el) {
   summary.title = SUMMARY_TOOLTIP;
   const brushed = appendDiv(head, "brushed");
   brushed.setAttribute("aria-live", "polite");
+  const log = document.createElement("button");
+  log.className = "log";
+  log.textContent = "log";
+  log.title = "Logarithmic axis for the share of the area";
+  head.append(log);
   const chart = append(el, "svg", "chart", { tabindex: 0, role: "application" });
   const drawing = append(chart, "g", "drawing", { transform: `translate(${MARGIN.left} ${MARGIN.top})` });
-  return { summary, brushed, chart, drawing };
+  return { summary, brushed, log, chart, drawing };
 }
 function barsOf(model) {
   const bars = model.get("bars");
@@ -330,12 +339,13 @@ function createBrush(model, getSize) {
   });
 }
 function render({ model, el }) {
-  const { summary, brushed, chart, drawing } = createElements(el);
+  const { summary, brushed, log, chart, drawing } = createElements(el);
   let size = { width: 0, height: 0 };
   function draw() {
     const bars = barsOf(model);
     summary.textContent = model.get("summary");
     brushed.textContent = model.get("brushed");
+    log.setAttribute("aria-pressed", String(model.get("log_shares")));
     el.classList.toggle("empty", !bars);
     chart.setAttribute("aria-label", `Histogram of the area ratio: ${model.get("summary")}. ${HELP}`);
     if (bars && size.width >= 1 && size.height >= 1)
@@ -350,6 +360,10 @@ function render({ model, el }) {
   const controller = new AbortController();
   const xOf = (event) => event.clientX - chart.getBoundingClientRect().left - MARGIN.left;
   createBrush(model, () => size).listenTo(chart, xOf, controller.signal);
+  log.addEventListener("click", () => {
+    model.set("log_shares", !model.get("log_shares"));
+    model.save_changes();
+  });
   const stopKeepingKeys = keepKeys(() => el);
   model.on(CHANGES, draw);
   observer.observe(chart);

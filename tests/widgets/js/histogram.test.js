@@ -5,7 +5,7 @@ import { Scale } from "../../../seiswidgets/widgets/js/histogram/scale.js";
 
 const COUNT = 5;
 const EDGES = Array.from({ length: COUNT + 1 }, (_, i) => 2 ** (i - COUNT / 2));
-const BARS = { edges: EDGES, shares: [0.1, 0.2, 0.4, 0.2, 0.1], colours: [], x: [], y: [], decimals: 2 };
+const BARS = { edges: EDGES, shares: [0.1, 0.2, 0.4, 0.2, 0.1], colours: [], x: [], y: [], decimals: 2, floor: 0 };
 const scale = new Scale(/** @type {any} */ (BARS), { width: 500, height: 100 });
 
 /** @type {number[]} */
@@ -72,4 +72,12 @@ test("a brush set elsewhere is extended from there", () => {
   brushed = [EDGES[1], EDGES[3]];
   brush.press("ArrowRight", true);
   assert.deepEqual(bars(), [1, 3]);
+});
+
+test("a logarithmic axis gives each decade the same height", () => {
+  const shares = [0.001, 0.01, 0.1, 0, 1e-9];
+  const log = new Scale(/** @type {any} */ ({ ...BARS, shares, floor: 1e-4 }), { width: 500, height: 100 });
+  const heights = shares.map((share) => log.height - log.y(share));
+  assert.ok(Math.abs(heights[2] - 3 * heights[0]) < 1e-9 && Math.abs(heights[1] - 2 * heights[0]) < 1e-9);
+  assert.ok(heights[2] < log.height && heights[3] === 0 && heights[4] === 0);
 });

@@ -10,6 +10,7 @@ const HEADROOM = 1.12; // height of the axis over that of the highest bar, for t
  * @property {[number, string][]} x ticks with their labels
  * @property {[number, string][]} y
  * @property {number} decimals that tell one edge from the next
+ * @property {number} floor lowest share of a logarithmic axis; 0 for a linear one
  */
 
 /** @typedef {{ width: number, height: number }} Size of the bars, in css pixels */
@@ -29,13 +30,15 @@ export class Scale {
    * @param {Bars} bars
    * @param {Size} size
    */
-  constructor({ edges, shares }, { width, height }) {
+  constructor({ edges, shares, floor }, { width, height }) {
     this.count = shares.length;
     this.width = width;
     this.height = height;
     this.low = Math.log(edges[0]);
     this.high = Math.log(edges[this.count]);
-    this.highest = HEADROOM * Math.max(...shares);
+    this.floor = floor;
+    const highest = Math.max(...shares);
+    this.highest = floor ? highest * (highest / floor) ** (HEADROOM - 1) : HEADROOM * highest;
   }
 
   get barWidth() {
@@ -58,7 +61,9 @@ export class Scale {
 
   /** @param {number} share */
   y(share) {
-    return this.height * (1 - share / this.highest);
+    const { floor, highest } = this;
+    if (!floor) return this.height * (1 - share / highest);
+    return this.height * (1 - Math.max(0, Math.log(share / floor)) / Math.log(highest / floor));
   }
 
   /** @param {number} x */
