@@ -114,6 +114,7 @@ class PickNetwork:
     faults : dict of str to LineString
         By name.
     horizons : dict of str to list of HorizonSegment
+        Their ends count the faults from 0; higher indices are boundaries, which have no cut-offs.
     where : callable(point) -> str
         Text for a position in errors.
     position : callable(point) -> (x, z)

@@ -10,6 +10,7 @@ from shapely.ops import substring
 
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.shared_stretches import follow, shared_stretches
 
 MERGED = 0.01  # of the mesh spacing: points closer than this become one
 REACH = 0.25  # of the mesh spacing: a fault that ends so close to the border or to another fault meets it
@@ -43,10 +44,9 @@ def fault_lines(faults: Mapping[str, np.ndarray], domain: RestorationDomain) -> 
     Raises
     ------
     PickError
-        If a fault is no longer than the spacing or turns back on itself, or two lie on top of each other.
+        If a fault is no longer than the spacing or turns back on itself, or lies on top of another one as a whole.
     """
-    lines = {name: _line(name, points, domain) for name, points in faults.items()}
-    _check_apart(lines, domain)
+    lines = _follow_earlier({name: _line(name, points, domain) for name, points in faults.items()}, domain)
     extended: dict[str, LineString] = {}
     for name, line in lines.items():
         others = [extended.get(other, lines[other]) for other in lines if other != name]
@@ -83,19 +83,22 @@ def _check_onward(name: str, points: np.ndarray, domain: RestorationDomain) -> N
         )
 
 
-def _check_apart(lines: Mapping[str, LineString], domain: RestorationDomain) -> None:
-    names = list(lines)
-    for index, name in enumerate(names):
-        for other in names[:index]:
-            shared = lines[name].intersection(lines[other].buffer(0.05 * domain.spacing))
-            if shared.length > domain.spacing:
-                point = shared.centroid.coords[0]
+def _follow_earlier(drawn: Mapping[str, LineString], domain: RestorationDomain) -> dict[str, LineString]:
+    """Make faults coincide exactly on the stretches that they share; PickError if one has no stretch of its own."""
+    lines: dict[str, LineString] = {}
+    for name, line in drawn.items():
+        for other, earlier in lines.items():
+            shared = shared_stretches(line, earlier, domain.sample)
+            if sum(stop - start for start, stop in shared) > line.length - domain.spacing:
+                point = line.interpolate(0.5, normalized=True).coords[0]
                 raise PickError(
                     f"faults {other!r} and {name!r} lie on top of each other near {domain.where(point)}, for "
-                    f"{shared.length:.4g} m; keep one, or move them apart",
+                    f"{line.length:.4g} m; keep one, or move them apart",
                     pick=name,
                     where=domain.position(point),
                 )
+        lines[name] = follow(line, lines.values(), domain.sample)
+    return lines
 
 
 def _fit_ends(line: LineString, others: Sequence[BaseGeometry], reach: float) -> LineString:

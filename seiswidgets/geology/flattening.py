@@ -17,11 +17,10 @@ from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import merge_close_points
 from seiswidgets.geology.observations import observe_level
+from seiswidgets.geology.segments import join_pieces
 from seiswidgets.geology.solve import SolverOptions, minimise, reusable_setup, warm_start
 from seiswidgets.geology.stage import Outcome, Stage
 from seiswidgets.geology.weights import Weights
-
-JOINED = 0.5  # of the mesh spacing: ends of two pieces that lie closer become one point
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,23 +121,3 @@ def _tidy(lines: Sequence[LineString], domain: RestorationDomain, name: str) -> 
             where=domain.position(pieces[0][0]) if pieces else None,
         )
     return tidied
-
-
-def join_pieces(pieces: Sequence[LineString], spacing: float) -> list[LineString]:
-    """Join pieces of a horizon whose ends nearly meet, as across a restored fault."""
-    points = [shapely.get_coordinates(piece).copy() for piece in pieces]
-    ends = [(piece, end) for piece in range(len(points)) for end in (0, -1)]
-    pairs = sorted(
-        (float(np.hypot(*(points[one][a] - points[other][b]))), (one, a), (other, b))
-        for index, (one, a) in enumerate(ends)
-        for other, b in ends[:index]
-        if one != other
-    )
-    joined: set[tuple[int, int]] = set()
-    for distance, first, second in pairs:
-        if distance < JOINED * spacing and not {first, second} & joined:
-            middle = (points[first[0]][first[1]] + points[second[0]][second[1]]) / 2
-            points[first[0]][first[1]] = points[second[0]][second[1]] = middle
-            joined |= {first, second}
-    lines = shapely.multilinestrings([LineString(piece) for piece in points])
-    return list(shapely.get_parts(shapely.line_merge(lines)))

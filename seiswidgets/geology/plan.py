@@ -209,12 +209,18 @@ class RestorationJob:
             "start": start,
         }
         if step.kind == UNFAULT:
-            faults, horizons = self._faults(step), self.interpretation.horizons
-            return restoration.unfault(faults, horizons, fixed=self.plan.fixed, **options)
+            faults, horizons, others = self._faults(step), self.interpretation.horizons, self._boundaries(step)
+            return restoration.unfault(faults, horizons, boundaries=others, fixed=self.plan.fixed, **options)
         return restoration.flatten(self._horizon(step), datum=step.datum, **options)
 
     def _faults(self, step: Step) -> list[Fault]:
         return [self.interpretation.fault(name) for name in step.picks] or list(self.interpretation.faults)
+
+    def _boundaries(self, step: Step) -> list[Fault]:
+        """The faults that are restored neither in a step nor in one before it."""
+        steps = takewhile(lambda other: other is not step, self.steps)
+        restored = [fault for other in [*steps, step] if other.kind == UNFAULT for fault in self._faults(other)]
+        return [fault for fault in self.interpretation.faults if fault not in restored]
 
     def _horizon(self, step: Step) -> Horizon:
         if len(step.picks) > 1:
@@ -236,12 +242,13 @@ class RestorationJob:
         shared = (self.plan.solver, self.plan.spacing, self.plan.max_iterations, self.quick)
         for step in self.steps:
             picks: list[Fault | Horizon] = [self._horizon(step)] if step.kind == FLATTEN else [*self._faults(step)]
-            picks += self.interpretation.horizons if step.kind == UNFAULT else ()
+            picks += [*self._boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else ()
             names = [field.name for field in fields(Weights) if field.name not in UNUSED_WEIGHTS[step.kind]]
             weights = [getattr(self.plan.weights, name) for name in names]
             fixed = self.plan.fixed if step.kind == UNFAULT else None
             lines = [(pick.name, *_lines(pick)) for pick in picks]
-            yield step.kind, step.datum, fixed, lines, weights, shared
+            count = len(self._faults(step)) if step.kind == UNFAULT else 0
+            yield step.kind, step.datum, fixed, count, lines, weights, shared
 
 
 def _lines(pick: Fault | Horizon) -> list[list[list[float]]]:

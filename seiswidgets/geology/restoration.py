@@ -20,7 +20,14 @@ from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
 from seiswidgets.geology.stage import Stage
-from seiswidgets.geology.transfer import area_ratio_at, carried_fault, carried_horizon, carried_point, picture
+from seiswidgets.geology.transfer import (
+    area_ratio_at,
+    carried_boundaries,
+    carried_fault,
+    carried_horizon,
+    carried_point,
+    picture,
+)
 from seiswidgets.geology.unfaulting import unfault_stage
 
 
@@ -77,8 +84,9 @@ class Restoration:
     def unfault(
         self,
         faults: Fault | Sequence[Fault],
-        horizons: Horizon | Sequence[Horizon],
+        horizons: Horizon | Sequence[Horizon] = (),
         *,
+        boundaries: Fault | Sequence[Fault] = (),
         fixed: tuple[float, float] | None = None,
         **options: Unpack[SolverKeywords],
     ) -> "Restoration":
@@ -89,6 +97,9 @@ class Restoration:
         faults : Fault or list of Fault
         horizons : Horizon or list of Horizon
             Each fault needs at least one that meets it on both sides.
+        boundaries : Fault or list of Fault
+            The other faults of the interpretation, such as older ones that are restored later: no bed crosses them,
+            and the rock does not slip along them. Those that are also among ``faults`` are left out.
         fixed : (x, z), optional
             A point in the block that stays exactly where it is. If left out both sides of every fault move, and of
             all solutions that differ by a rigid motion the one that moves least is taken.
@@ -120,10 +131,13 @@ class Restoration:
         named_horizons = validation.named_picks(horizons, Horizon, "horizon")
         if not named_faults:
             raise PickError("there is no fault to unfault; give at least one")
+        named_boundaries = validation.named_picks(boundaries, Fault, "fault")
         held = None if fixed is None else carried_point(self.original, self.stages, fixed)
         lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in named_faults.items()}
         beds = {name: carried_horizon(self.original, self.stages, bed) for name, bed in named_horizons.items()}
-        stage = unfault_stage(self.domain, lines, beds, held, solver_options)
+        others = {name: fault for name, fault in named_boundaries.items() if fault not in named_faults.values()}
+        walls = carried_boundaries(self.original, self.stages, others)
+        stage = unfault_stage(self.domain, lines, beds, held, solver_options, walls)
         return replace(self, stages=(*self.stages, stage))
 
     def flatten(

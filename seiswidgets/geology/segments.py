@@ -4,7 +4,7 @@ Pieces are seldom drawn exactly to a fault: one that ends short is extended alon
 of its length; one that overshoots is trimmed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -16,6 +16,7 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import substring
 
 EXTENSION = 0.2  # of a piece's length: how far it is extended to a fault, and how short an overshoot is
+JOINED = 0.5  # of the mesh spacing: ends of two pieces that lie closer become one point
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,12 @@ def split_at_faults(line: LineString, faults: Sequence[LineString], piece: int =
     length = line.length
     if not crossings and length > 0:
         return [HorizonSegment(line, (None, None), piece)]
-    inner = [(at, fault) for at, fault in crossings if 1e-9 * length < at < (1 - 1e-9) * length]
+    inner: list[tuple[float, int]] = []
+    for at, fault in crossings:
+        if inner and at - inner[-1][0] <= 1e-9 * length:  # on a stretch that faults share: the first one counts
+            inner[-1] = at, min(fault, inner[-1][1])
+        elif 1e-9 * length < at < (1 - 1e-9) * length:
+            inner.append((at, fault))
     stops: list[tuple[float, int | None]] = [(0.0, None), *inner, (length, None)]
     segments = []
     for (start, first), (stop, last) in pairwise(stops):
@@ -138,7 +144,8 @@ def nearest_fault_ahead(line: LineString, which: int, faults: Sequence[LineStrin
     ]
     if not hits:
         return None
-    gap, fault, point = min(hits)
+    first, *_ = min(hits)
+    fault, gap, point = min((fault, gap, point) for gap, fault, point in hits if gap <= first + touch)
     return _end(line, which, fault, faults[fault], point, gap if gap > touch else 0.0)
 
 
@@ -186,3 +193,34 @@ def hanging_side(fault: LineString, position: ArrayLike, point: ArrayLike) -> in
 def _common_points(geometry: BaseGeometry) -> list[Point]:
     """The points that lines have in common; a stretch they share splits neither."""
     return [part for part in shapely.get_parts(geometry) if part.geom_type == "Point" and not part.is_empty]
+
+
+def join_pieces(
+    pieces: Sequence[LineString], spacing: float, apart: Container[tuple[int, int]] = ()
+) -> list[LineString]:
+    """Join pieces of a horizon whose ends nearly meet, as across a restored fault.
+
+    Parameters
+    ----------
+    pieces : list of LineString
+    spacing : float
+        Mesh spacing.
+    apart : set of (index, end)
+        Ends (0 or -1) of pieces that stay as they are.
+    """
+    points = [shapely.get_coordinates(piece).copy() for piece in pieces]
+    ends = [(piece, end) for piece in range(len(points)) for end in (0, -1) if (piece, end) not in apart]
+    pairs = sorted(
+        (float(np.hypot(*(points[one][a] - points[other][b]))), (one, a), (other, b))
+        for index, (one, a) in enumerate(ends)
+        for other, b in ends[:index]
+        if one != other
+    )
+    joined: set[tuple[int, int]] = set()
+    for distance, first, second in pairs:
+        if distance < JOINED * spacing and not {first, second} & joined:
+            middle = (points[first[0]][first[1]] + points[second[0]][second[1]]) / 2
+            points[first[0]][first[1]] = points[second[0]][second[1]] = middle
+            joined |= {first, second}
+    lines = shapely.multilinestrings([LineString(piece) for piece in points])
+    return list(shapely.get_parts(shapely.line_merge(lines)))

@@ -3,11 +3,13 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
 import shapely
 from shapely import LineString, MultiPolygon, Polygon
+from shapely.ops import substring
 
 from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
@@ -20,8 +22,10 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.motion import observe_motion
 from seiswidgets.geology.report import Observations, Report
-from seiswidgets.geology.segments import horizon_segments, split_at_faults
+from seiswidgets.geology.segments import horizon_segments, join_pieces, split_at_faults
+from seiswidgets.geology.shared_stretches import follow, shared_stretches
 
+SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
 PERCENTS = (1, 50, 99)
 FINE, LEAST_POINTS = 0.25, 64  # a line is carried at points a quarter of the spacing apart, and at least this many
 CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
@@ -82,6 +86,8 @@ class Stage:
         Positions of the mesh's vertices after it.
     faults : tuple of shapely LineString
         Lines that the mesh is cut along, before the step.
+    boundaries : tuple of shapely LineString
+        Faults that this step does not restore, before the step: no bed crosses them.
     domain : RestorationDomain
         The rock before the step.
     outcome : Outcome
@@ -98,6 +104,7 @@ class Stage:
     domain: RestorationDomain
     outcome: Outcome
     mesh_setup: MeshSetup
+    boundaries: tuple[LineString, ...] = ()
     whole: "Stage | None" = None
 
     def __post_init__(self) -> None:
@@ -236,16 +243,34 @@ class Stage:
         return deformation.principal_stretches(self.mesh, self.vertices)
 
     def carried_horizon(self, pieces: Sequence[LineString]) -> list[LineString]:
-        """The pieces of a horizon after the step, extended to the faults they end at."""
-        return self._carry([segment.line for segment in horizon_segments(pieces, self.faults)], sideways=0.0)
+        """The pieces of a horizon after the step, joined where they now meet across its faults."""
+        segments = horizon_segments(pieces, (*self.faults, *self.boundaries))
+        carried = [(line, segment.ends) for segment in segments if (line := self._carry_line(segment.line, 0.0))]
+        at_boundary = {
+            (index, which)
+            for index, (_, ends) in enumerate(carried)
+            for which, end in zip((0, -1), ends, strict=True)
+            if end and end.fault >= len(self.faults)
+        }
+        return join_pieces([line for line, _ in carried], self.spacing, at_boundary)
 
     def carried_fault(self, line: LineString) -> list[LineString]:
         """A fault after the step, in order, split where another fault crosses it.
 
-        A fault that the mesh is cut along goes with one of its sides, the same from end to end.
+        A fault that the mesh is cut along goes with one of its sides, the same from end to end. Of a fault that
+        shares a stretch with another one, that side is chosen, with or without that stretch, on which its parts
+        stay together.
         """
-        segments = split_at_faults(line, self.faults)
-        return self._carry([segment.line for segment in segments], sideways=1e-3 * self.spacing)
+        line = follow(line, self.faults, self.domain.sample)
+        parts = _split_at_faults(line, self.faults, self.domain.sample)
+        own = [part for part, shared in parts if not shared]
+        ways = [
+            self._carry(lines, side * SIDEWAYS * self.spacing)
+            for lines in ([part for part, _ in parts], own)
+            for side in ((1, -1) if len(parts) > 1 else (1,))
+            if lines
+        ]
+        return min(ways, key=lambda lines: round(_gaps(lines) / (CLOSED * self.spacing)))
 
     def _carry(self, lines: Iterable[LineString], sideways: float) -> list[LineString]:
         carried = [self._carry_line(line, sideways) for line in lines]
@@ -254,10 +279,29 @@ class Stage:
     def _carry_line(self, line: LineString, sideways: float) -> LineString | None:
         points = shapely.get_coordinates(line.segmentize(min(FINE * self.spacing, line.length / LEAST_POINTS)))
         within = points.copy()  # a line's end on a fault belongs to the triangles of its own side
-        nudge = min(2e-3 * self.spacing, line.length / 4)
+        nudge = min(INWARDS * self.spacing, line.length / 4)
         within[[0, -1]] = [line.interpolate(distance).coords[0] for distance in (nudge, line.length - nudge)]
         along = np.gradient(points, axis=0)
         within += sideways * along[:, ::-1] * [-1, 1] / np.hypot(*along.T)[:, None]
         moved = self.map.forward(points, self.map.source_finder(within))
         moved = moved[np.isfinite(moved).all(axis=1)]
         return LineString(moved) if len(moved) > 1 else None
+
+
+def _split_at_faults(line: LineString, faults: Sequence[LineString], reach: float) -> list[tuple[LineString, bool]]:
+    """Parts of a fault between the faults of a stage, in order, each with True if it lies on one of them."""
+    stretches = sorted(stretch for fault in faults for stretch in shared_stretches(line, fault, reach))
+    stops = np.clip([0, *np.maximum.accumulate(np.array(stretches).ravel()), line.length], 0, line.length)
+    parts: list[tuple[LineString, bool]] = []
+    for index, (start, stop) in enumerate(pairwise(stops)):
+        if stop - start > 1e-9 * line.length:
+            part, shared = substring(line, start, stop), index % 2 == 1
+            pieces = [part] if shared else [segment.line for segment in split_at_faults(part, faults)]
+            parts += [(piece, shared) for piece in pieces]
+    return parts
+
+
+def _gaps(lines: Sequence[LineString]) -> float:
+    """Total distance from the end of each line to the start of the next."""
+    ends = ((one.coords[-1], other.coords[0]) for one, other in pairwise(lines))
+    return sum(float(np.hypot(*np.subtract(end, start))) for end, start in ends)

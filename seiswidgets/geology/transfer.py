@@ -1,6 +1,6 @@
 """Carry points, picks, amplitudes and area ratios of a section through the stages of a restoration."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import count
 
@@ -12,7 +12,6 @@ from shapely import LineString
 from seiswidgets.core.resampling import resample
 from seiswidgets.errors import PickError
 from seiswidgets.geology import validation
-from seiswidgets.geology.flattening import join_pieces
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
@@ -20,16 +19,29 @@ from seiswidgets.geology.stage import Stage
 
 def carried_fault(original: Section, stages: Sequence[Stage], fault: Fault) -> np.ndarray:
     """The points of a fault after some stages, shape (n, 2)."""
-    points = validation.rock_points(original, fault.points, f"fault {fault.name!r}", fault.name)
-    lines = [LineString(points)]
-    for stage in stages:
-        lines = [moved for line in lines for moved in stage.carried_fault(line)]
+    lines = _carried_parts(original, stages, fault)
     if not lines:
         raise PickError(
             f"nothing is left of fault {fault.name!r} after the stages before; it lies outside the rock",
             pick=fault.name,
         )
-    return np.concatenate([shapely.get_coordinates(line) for line in lines])
+    return shapely.get_coordinates(lines)
+
+
+def carried_boundaries(
+    original: Section, stages: Sequence[Stage], faults: Mapping[str, Fault]
+) -> dict[str, np.ndarray]:
+    """The points of faults after some stages, each of shape (n, 2), without those of which nothing is left."""
+    parts = {name: _carried_parts(original, stages, fault) for name, fault in faults.items()}
+    return {name: shapely.get_coordinates(lines) for name, lines in parts.items() if lines}
+
+
+def _carried_parts(original: Section, stages: Sequence[Stage], fault: Fault) -> list[LineString]:
+    points = validation.rock_points(original, fault.points, f"fault {fault.name!r}", fault.name)
+    lines = [LineString(points)]
+    for stage in stages:
+        lines = [moved for line in lines for moved in stage.carried_fault(line)]
+    return lines
 
 
 def carried_horizon(original: Section, stages: Sequence[Stage], horizon: Horizon) -> list[LineString]:
@@ -39,7 +51,7 @@ def carried_horizon(original: Section, stages: Sequence[Stage], horizon: Horizon
         for index, piece in enumerate(horizon.pieces, 1)
     ]
     for stage in stages:
-        lines = join_pieces(stage.carried_horizon(lines), stage.spacing)
+        lines = stage.carried_horizon(lines)
     return lines
 
 

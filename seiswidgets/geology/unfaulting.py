@@ -23,6 +23,7 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import CLOSE, EDGES, fault_crossings, fault_lines, insert_points, route_through
 from seiswidgets.geology.observations import observe_slip
 from seiswidgets.geology.segments import horizon_segments
+from seiswidgets.geology.shared_stretches import follow
 from seiswidgets.geology.solve import GAUSS_NEWTON, SolverOptions, minimise, reusable_setup, warm_start
 from seiswidgets.geology.stage import Outcome, Stage
 from seiswidgets.geology.weights import Weights
@@ -43,6 +44,8 @@ class Blocks:
         The vertices of each pair of cut-offs, in the hanging wall and in the footwall.
     beds : dict of str to list of array, shape (k, 2)
         The edges of each segment of each horizon.
+    boundaries : tuple of LineString
+        Faults that stay as they are.
     fingerprint : tuple
         Everything that shaped the mesh.
     """
@@ -53,6 +56,7 @@ class Blocks:
     cutoffs: list[CutOffPair]
     stitches: np.ndarray
     beds: dict[str, list[np.ndarray]]
+    boundaries: tuple[LineString, ...]
     fingerprint: tuple
 
     @property
@@ -82,6 +86,7 @@ def unfault_stage(
     horizons: Mapping[str, Sequence[LineString]],
     fixed: np.ndarray | None,
     options: SolverOptions,
+    boundaries: Mapping[str, np.ndarray],
 ) -> Stage:
     """Undo the slip on some faults.
 
@@ -93,10 +98,16 @@ def unfault_stage(
     fixed : array, shape (2,), or None
         A point in the block that stays.
     options : SolverOptions
+    boundaries : dict of str to array, shape (n, 2)
+        Faults that are not restored in this stage, and that beds do not cross.
     """
     began = time.perf_counter()
-    fingerprint = domain.fingerprint({name: [LineString(points)] for name, points in faults.items()}, horizons)
-    blocks = reusable_setup(options.start, Blocks, fingerprint) or _mesh_blocks(domain, faults, horizons, fingerprint)
+    others = [LineString(points) for points in boundaries.values()]
+    drawn = {name: [LineString(points)] for name, points in faults.items()}
+    fingerprint = domain.fingerprint(drawn, horizons, {"": others})
+    blocks = reusable_setup(options.start, Blocks, fingerprint) or _mesh_blocks(
+        domain, faults, horizons, others, fingerprint
+    )
     mesh, free = blocks.mesh, _free(blocks.mesh, fixed, domain)
     terms = _terms(blocks, options.weights)
     start = warm_start(mesh, free, options.start)
@@ -111,23 +122,26 @@ def unfault_stage(
     observe = partial(observe_slip, blocks, solution, domain)
     faults_drawn = blocks.network.faults
     outcome = Outcome(tuple(faults_drawn), solution, options.solver, time.perf_counter() - began, observe)
-    return Stage("unfault", welded, vertices, tuple(faults_drawn.values()), domain, outcome, blocks)
+    return Stage("unfault", welded, vertices, tuple(faults_drawn.values()), domain, outcome, blocks, blocks.boundaries)
 
 
 def _mesh_blocks(
     domain: RestorationDomain,
     faults: Mapping[str, np.ndarray],
     horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Sequence[LineString],
     fingerprint: tuple,
 ) -> Blocks:
-    network = _network(fault_lines(faults, domain), horizons, domain)
+    lines = fault_lines(faults, domain)
+    boundaries = [follow(line, lines.values(), domain.sample) for line in boundaries]
+    network = _network(lines, horizons, boundaries, domain)
     cutoffs = network.cutoffs()
     lines = {name: _meshed_line(line, network.ends_at(name), domain) for name, line in network.faults.items()}
     bed_lines = {
         name: [domain.simplify(segment.line) for segment in segments] for name, segments in network.horizons.items()
     }
     whole = domain.mesh([*lines.values(), *(line for bed in bed_lines.values() for line in bed)])
-    edges = {name: _inner_edges(whole, line, name, domain) for name, line in lines.items()}
+    edges = _own_edges({name: _inner_edges(whole, line, name, domain) for name, line in lines.items()})
     cut_edges = np.concatenate(list(edges.values()))
     cut = whole.cut(cut_edges)
     beds = {
@@ -136,25 +150,31 @@ def _mesh_blocks(
     }
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, network)
-    return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, fingerprint)
+    return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint)
 
 
 def _network(
-    drawn: dict[str, LineString], horizons: Mapping[str, Sequence[LineString]], domain: RestorationDomain
+    drawn: dict[str, LineString],
+    horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Sequence[LineString],
+    domain: RestorationDomain,
 ) -> PickNetwork:
     """Match faults and horizons, without the drawn points of faults that lie close to a cut-off."""
-    network = _match(drawn, horizons, domain)
+    network = _match(drawn, horizons, boundaries, domain)
     routed = {
         name: route_through(line, network.ends_at(name), fault_crossings(name, drawn), CLOSE * domain.spacing)
         for name, line in drawn.items()
     }
-    return network if routed == drawn else _match(routed, horizons, domain)
+    return network if routed == drawn else _match(routed, horizons, boundaries, domain)
 
 
 def _match(
-    drawn: dict[str, LineString], horizons: Mapping[str, Sequence[LineString]], domain: RestorationDomain
+    drawn: dict[str, LineString],
+    horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Sequence[LineString],
+    domain: RestorationDomain,
 ) -> PickNetwork:
-    faults = list(drawn.values())
+    faults = [*drawn.values(), *boundaries]
     segments = {name: horizon_segments(pieces, faults) for name, pieces in horizons.items()}
     return PickNetwork(drawn, segments, domain.where, domain.position)
 
@@ -177,6 +197,15 @@ def _inner_edges(mesh: Mesh, line: LineString, name: str, domain: RestorationDom
             where=domain.position(point),
         )
     return along[inner]
+
+
+def _own_edges(edges: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The edges of each fault; those of a stretch that faults share belong to the first of them."""
+    own: dict[str, np.ndarray] = {}
+    for name, along in edges.items():
+        taken = edge_keys(np.concatenate([np.empty((0, 2), int), *own.values()]))
+        own[name] = along[~np.isin(edge_keys(along), taken)]
+    return own
 
 
 def _check_meshed(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]], network: PickNetwork) -> None:

@@ -155,7 +155,10 @@ UNFAULTED = {
         ([FAULT, fault((702, 0), (902, 1000))], HORIZON),
         "faults 'F1' and 'F2' lie on top of each other near x=80. m, z=500 m.*keep one, or move them apart",
     ),
-    "two in part": (([FAULT, fault((700, 0), (800, 500), (1000, 1000))], HORIZON), "'F1' and 'F2' lie on top"),
+    "two in part": (
+        ([FAULT, fault((700, 0), (800, 500), (1000, 1000))], HORIZON),
+        "no horizon ends at fault 'F2' on both sides",
+    ),
     "short": (
         (fault((700, 300), (750, 350)), HORIZON),
         "fault 'F2' near x=700 m, z=300 m is 70.71 m long, no longer than the mesh spacing of 100 m; reduce spacing=",

@@ -9,7 +9,7 @@ import seiswidgets as sw
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import MERGED, REACH, fault_lines, insert_points, merge_close_points
 
-SECTION = sw.Section(np.ones((11, 21), np.float32), dx=100, dz=100)
+SECTION = sw.Section(np.ones((201, 81), np.float32), dx=25, dz=5)
 SPACING = 100.0
 GROUND = RestorationDomain(shapely.box(0, 0, 2000, 1000), SECTION, SPACING)
 NEAR, FAR = 0.9 * REACH * SPACING, 1.1 * REACH * SPACING
