@@ -25,6 +25,12 @@ class Keyword:
         return f"{self.name}=" if self.value is None else f"{self.name}={self.value!r}"
 
 
+def number_text(value: float) -> str:
+    """Text for a coordinate: six digits, and never an exponent where it is large."""
+    text = f"{value:.6g}" if abs(value) < 1e6 else f"{value:.1f}".removesuffix(".0")
+    return "0" if abs(value) < 1e-9 else text
+
+
 class Text(str):
     """A message that knows the keywords it names.
 

@@ -8,9 +8,12 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from shapely import LineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
+from shapely.ops import substring
 
 SNAP = 2.0**-30  # of the outline's width and height; points that lie closer become one
 MERGED = 1e-3  # of the spacing: points that lie closer to each other, or to a line, become one with it
+REPEATED = 0.2  # of the reach of a border: points that lie closer once they are on it become one
+STRAIGHT = 1.1  # length of the border between two points of a line that follows it, as a multiple of their distance
 REACH = 0.1  # of the spacing: a line that ends so close to the outline meets it
 
 
@@ -18,6 +21,8 @@ def planar_graph(
     outline: Polygon | MultiPolygon, lines: Sequence[LineString], spacing: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Planar straight-line graph of an outline and the lines inside it: segments meet at vertices only.
+
+    It does not depend on the order of the lines or on their directions.
 
     Parameters
     ----------
@@ -31,9 +36,65 @@ def planar_graph(
     vertices : array, shape (n, 2)
     segments : array, shape (k, 2)
     """
+    lines = sorted(shapely.normalize(lines), key=longest_first)
     lines = shapely.segmentize(_close_near_misses(lines, outline.boundary, spacing), spacing)
     vertices, segments = _node(outline, lines)
     return _merge_vertices(vertices, segments, outline, MERGED * spacing)
+
+
+def longest_first(line: LineString) -> tuple:
+    """Key that sorts lines by their shape alone, whatever order and direction they were drawn in."""
+    return round(-line.length, 6), *shapely.normalize(line).coords
+
+
+def follow_border(line: LineString, border: LineString, reach: np.ndarray) -> LineString:
+    """Lay a line onto the border wherever it lies close to it, so that no sliver is left between the two.
+
+    Parameters
+    ----------
+    line : LineString
+    border : LineString
+        A ring.
+    reach : array, shape (2,)
+        Distance that counts as close, along x and along z.
+    """
+    points = shapely.get_coordinates(line)
+    near = shapely.dwithin(shapely.points(points / reach), shapely.transform(border, lambda xz: xz / reach), 1.0)
+    if not near.any():
+        return line
+    corners = _corners(border)
+    for index in np.flatnonzero(near):
+        to_corners = np.hypot(*((corners - points[index]) / reach).T)
+        if np.min(to_corners, initial=np.inf) <= 1:
+            points[index] = corners[np.argmin(to_corners)]
+    arc_lengths = shapely.line_locate_point(border, shapely.points(points))
+    points[near] = shapely.get_coordinates(shapely.line_interpolate_point(border, arc_lengths[near]))
+    parts = [points[:1]]
+    for index in range(1, len(points)):
+        along = near[index - 1] and near[index]
+        between = _border_between(border, *arc_lengths[index - 1 : index + 1]) if along else None
+        if between is not None and between.length <= STRAIGHT * np.hypot(*(points[index] - points[index - 1])):
+            parts.append(shapely.get_coordinates(between)[1:-1])
+        parts.append(points[index : index + 1])
+    laid = shapely.remove_repeated_points(LineString(np.concatenate(parts)), REPEATED * float(np.min(reach)))
+    return laid if laid.length > 0 else line
+
+
+def _corners(border: LineString) -> np.ndarray:
+    """The points where a ring turns by more than 45 degrees."""
+    points = shapely.get_coordinates(border)[:-1]
+    before, after = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
+    cosine = np.sum(before * after, axis=1) / np.maximum(np.hypot(*before.T) * np.hypot(*after.T), np.finfo(float).tiny)
+    return points[cosine < np.sqrt(0.5)]
+
+
+def _border_between(border: LineString, start: float, stop: float) -> LineString:
+    """The shorter way along a ring from one arc length to another."""
+    if abs(stop - start) <= border.length / 2:
+        return substring(border, start, stop)
+    around = [substring(border, start, border.length if start > stop else 0.0)]
+    around.append(substring(border, 0.0 if start > stop else border.length, stop))
+    return LineString(np.concatenate([shapely.get_coordinates(part) for part in around if part.length > 0]))
 
 
 def _close_near_misses(lines: Sequence[LineString], border: BaseGeometry, spacing: float) -> list[LineString]:

@@ -4,8 +4,6 @@ J. R. Shewchuk, Triangle: engineering a 2D quality mesh generator and Delaunay t
 """
 
 from collections.abc import Sequence
-from typing import NoReturn
-
 import numpy as np
 import shapely
 import triangle
@@ -23,9 +21,20 @@ DENSITY = 1.15  # vertices per squared spacing
 TOO_MANY = 250_000
 TOO_FEW = 30
 CROWDED, EXTRA = 20, 5_000  # at most 20 times the vertices that the area alone needs, and 5,000 for small meshes
+COARSER = 1.5  # at most, than a count of vertices asks for, to make up for those that the lines add
 
 
-def triangulate(outline: Polygon | MultiPolygon, lines: Sequence[LineString], spacing: float) -> Mesh:
+class CrowdedError(Exception):
+    """Lines so close together that a mesh would need too many vertices; ``point`` lies between them."""
+
+    def __init__(self, point: np.ndarray):
+        super().__init__(f"lines too close together near {point}")
+        self.point = point
+
+
+def triangulate(
+    outline: Polygon | MultiPolygon, lines: Sequence[LineString], spacing: float, most: int | None = None
+) -> Mesh:
     """Triangulate an outline with every line, and every crossing of two lines, among the edges.
 
     Parameters
@@ -37,13 +46,18 @@ def triangulate(outline: Polygon | MultiPolygon, lines: Sequence[LineString], sp
         closer together than the spacing.
     spacing : float
         Typical length of an edge where no line needs shorter ones, in metres.
+    most : int, optional
+        Limit for the number of vertices, by default in proportion to those that the area alone needs.
 
     Raises
     ------
     SettingError
-        If the mesh would have too many vertices, or has too few to be of use.
+        If the area alone needs too many vertices, or the mesh has too few to be of use.
+    CrowdedError
+        If lines lie so close together that the mesh would exceed the limit.
     """
-    most = min(CROWDED * expected_vertices(outline, spacing) + EXTRA, TOO_MANY)
+    expected = expected_vertices(outline, spacing)
+    most = most or min(CROWDED * expected + EXTRA, TOO_MANY)
     vertices, segments = planar_graph(outline, lines, spacing)
     origin = np.array(outline.bounds[:2])
     drawing = {"vertices": (vertices - origin) / spacing, "segments": segments}  # Triangle is most accurate near 1
@@ -51,18 +65,24 @@ def triangulate(outline: Polygon | MultiPolygon, lines: Sequence[LineString], sp
     triangles = result.get("triangles", np.empty((0, 3), int))
     vertices = result["vertices"] * spacing + origin
     if len(vertices) >= most:
-        _raise_crowded(vertices[triangles], most)
+        raise CrowdedError(_shortest_side(vertices[triangles]))
     return _mesh(vertices, _inside(triangles, vertices, outline), spacing)
 
 
 def triangulate_to(outline: Polygon | MultiPolygon, lines: Sequence[LineString], count: int) -> Mesh:
-    """Triangulate an outline and lines with about ``count`` vertices, to within a tenth if possible."""
-    spacing = float(np.sqrt(outline.area * DENSITY / count))
+    """Triangulate an outline and lines with about ``count`` vertices, to within a tenth if the lines allow it.
+
+    CrowdedError if the lines alone need twenty times as many.
+    """
+    first = spacing = float(np.sqrt(outline.area * DENSITY / count))
+    most = CROWDED * count + EXTRA
     for _ in range(5):
-        mesh = triangulate(outline, lines, spacing)
-        if abs(len(mesh.vertices) / count - 1) < 0.1:
+        mesh = triangulate(outline, lines, spacing, most)
+        wanted = spacing * float(np.clip(np.sqrt(len(mesh.vertices) / count), 0.5, 2))
+        wanted = min(wanted, COARSER * first)
+        if abs(len(mesh.vertices) / count - 1) < 0.1 or wanted == spacing:
             break
-        spacing *= float(np.clip(np.sqrt(len(mesh.vertices) / count), 0.5, 2))
+        spacing = wanted
     return mesh
 
 
@@ -101,13 +121,10 @@ def _mesh(vertices: np.ndarray, triangles: np.ndarray, spacing: float) -> Mesh:
     return Mesh(vertices[used], triangles)
 
 
-def _raise_crowded(corners: np.ndarray, most: int) -> NoReturn:
+def _shortest_side(corners: np.ndarray) -> np.ndarray:
+    """The first point of the shortest of all triangles' sides."""
     sides = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0))
-    x, z = corners[np.unravel_index(np.argmin(sides), sides.shape)]
-    raise SettingError(
-        f"two lines lie so close together near x={x:.6g} m, z={z:.6g} m (of rock), or meet at so small an angle, that "
-        f"the mesh would need more than {most:,} vertices, the limit here; move them apart, or leave one of them out"
-    )
+    return np.asarray(corners[np.unravel_index(np.argmin(sides), sides.shape)])
 
 
 def edges_along(mesh: Mesh, line: LineString, spacing: float, without: np.ndarray | None = None) -> np.ndarray:

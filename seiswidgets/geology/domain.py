@@ -5,16 +5,22 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import shapely
 from numpy.typing import ArrayLike
-from shapely import LineString, MultiPolygon, Polygon
+from shapely import LineString, MultiPolygon, Point, Polygon
 
+from seiswidgets.core.linework import follow_border
 from seiswidgets.core.mesh import Mesh
-from seiswidgets.core.triangulation import DENSITY, expected_vertices, triangulate, triangulate_to
+from seiswidgets.core.triangulation import DENSITY, CrowdedError, expected_vertices, triangulate, triangulate_to
+from seiswidgets.errors import PickError, number_text
 from seiswidgets.geology.section import Section
 
 SLACK = 0.1  # of a sample: the largest misfit that counts as met
+ON_BORDER = 0.5  # of a trace and of a sample
 SIMPLIFIED = 0.01  # of the mesh spacing, at most
 VERTICES = 2500  # of a mesh whose spacing is not given
+
+PickKey = tuple[str, str]  # "fault" or "horizon", and the name
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +52,11 @@ class RestorationDomain:
         """Typical length of the mesh's edges, in metres."""
         return self.requested_spacing or float(np.sqrt(self.outline.area * DENSITY / VERTICES))
 
+    @cached_property
+    def cell(self) -> np.ndarray:
+        """Distance between two traces and between two samples, in metres of rock; shape (2,)."""
+        return np.array([self.section.dx, self.section.dz]) * self.section.metres
+
     @property
     def sample(self) -> float:
         """Height of a sample, in metres."""
@@ -62,14 +73,48 @@ class RestorationDomain:
         return SIMPLIFIED * self.spacing if self.quick else min(self.slack, SIMPLIFIED * self.spacing)
 
     def simplify(self, line: LineString) -> LineString:
-        """Remove the points of a line that a mesh does not need."""
-        return line.simplify(self.tolerance)
+        """Remove the points of a line that a mesh does not need; what lies on the border stays there."""
+        simple = line.simplify(self.tolerance)
+        return self.on_border(simple) if simple.dwithin(self.outline.boundary, self.tolerance) else simple
 
-    def mesh(self, lines: Sequence[LineString]) -> Mesh:
-        """Triangulate the outline with all lines among the edges."""
-        if self.requested_spacing:
-            return triangulate(self.outline, lines, self.requested_spacing)
-        return triangulate_to(self.outline, lines, VERTICES)
+    def on_border(self, line: LineString) -> LineString:
+        """Lay a line onto the border wherever it lies within half a trace and half a sample of it.
+
+        Nobody can pick the difference, and the sliver between would need a mesh of its own.
+        """
+        for part in shapely.get_parts(self.outline):
+            for ring in (part.exterior, *part.interiors):
+                line = follow_border(line, LineString(ring), ON_BORDER * self.cell)
+        return line
+
+    def mesh(self, lines: Mapping[PickKey, Sequence[LineString]]) -> Mesh:
+        """Triangulate the outline with all lines, given by kind and name of their picks, among the edges.
+
+        PickError if two of them lie too close together.
+        """
+        every = [line for drawn in lines.values() for line in drawn]
+        try:
+            if self.requested_spacing:
+                return triangulate(self.outline, every, self.requested_spacing)
+            return triangulate_to(self.outline, every, VERTICES)
+        except CrowdedError as error:
+            crowded = error.point
+        (kind, name), other = self._two_nearest(crowded, lines)
+        raise PickError(
+            f"{kind} {name!r} and {other} lie so close together near {self.where(crowded)}, or meet at so small an "
+            "angle, that the rock between them cannot be meshed; move them apart, or leave one of them out",
+            pick=name,
+            where=self.position(crowded),
+        )
+
+    def _two_nearest(self, point: np.ndarray, lines: Mapping[PickKey, Sequence[LineString]]) -> tuple[PickKey, str]:
+        """The pick nearest to a point, and the name of the next one, or of the border."""
+        distances = sorted((line.distance(Point(point)), key) for key, drawn in lines.items() for line in drawn)
+        border = self.outline.boundary.distance(Point(point))
+        if len(distances) < 2 or border < distances[1][0]:
+            return distances[0][1], "the border of the section"
+        (_, first), (_, second) = distances[:2]
+        return first, "another part of it" if first == second else f"{second[0]} {second[1]!r}"
 
     def fingerprint(self, *drawn: Mapping[str, Sequence[LineString]]) -> tuple:
         """Everything that shapes a stage's mesh: two stages with equal fingerprints have the same mesh.
@@ -87,7 +132,7 @@ class RestorationDomain:
     def length(self, metres: float) -> str:
         """Text for a length, in the section's unit of x, also where z is a time."""
         rounded = float(f"{metres / self.section.metres[0]:.2g}")
-        return f"{rounded:.6g} {self.section.x_unit}{' of rock' if self.section.is_time else ''}"
+        return f"{number_text(rounded)} {self.section.x_unit}"
 
     def position(self, point: ArrayLike) -> tuple[float, float]:
         """A point given in metres of rock, in the section's units."""
@@ -96,5 +141,4 @@ class RestorationDomain:
 
     def where(self, point: ArrayLike) -> str:
         """Text for the position of a point given in metres of rock, with the section's units."""
-        x, z = self.position(point)
-        return f"x={x:.6g} {self.section.x_unit}, z={z:.6g} {self.section.z_unit}"
+        return self.section.where(self.position(point))

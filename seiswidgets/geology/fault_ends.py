@@ -7,7 +7,9 @@ import shapely
 from shapely import LineString, Point
 
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_lines import NO_ENDS
 from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.picks import AUTO, TIP, Ends
 from seiswidgets.geology.section import Section
 
 NEAR = 0.05  # of the section's height
@@ -15,9 +17,12 @@ BENDS = "the rock there must bend instead of slip"
 
 
 def fault_end_findings(
-    faults: Mapping[str, LineString], slips: Mapping[str, np.ndarray], domain: RestorationDomain
+    faults: Mapping[str, LineString],
+    slips: Mapping[str, np.ndarray],
+    domain: RestorationDomain,
+    ends: Mapping[str, Ends] = NO_ENDS,
 ) -> list[Finding]:
-    """A finding for each end of a fault that lies inside the section, off all other faults.
+    """A finding for each end of a fault that lies inside the section, off all other faults, and is not a chosen tip.
 
     It is a warning if the border, or another fault straight ahead, lies nearer than 5% of the section's height, or
     nearer than the slip at the fault's nearest cut-offs, which would have to die out over so short a distance.
@@ -30,12 +35,15 @@ def fault_end_findings(
     slips : dict of str to array, shape (c, 3)
         For each fault the points between its pairs of cut-offs, and the distance of each pair, in metres.
     domain : RestorationDomain
+    ends : dict of str to pair of str
+        See `Fault.ends`.
     """
     findings = []
     for name, line in faults.items():
         others = {other: drawn for other, drawn in faults.items() if other != name}
-        for points in (shapely.get_coordinates(line), shapely.get_coordinates(line)[::-1]):
-            if _is_inside(Point(points[0]), domain, others.values(), 1e-6 * line.length):
+        from_ends = (shapely.get_coordinates(line), shapely.get_coordinates(line)[::-1])
+        for points, choice in zip(from_ends, ends.get(name, (AUTO, AUTO)), strict=True):
+            if choice != TIP and _is_inside(Point(points[0]), domain, others.values(), 1e-6 * line.length):
                 near = _near_distance(points[0], slips[name], domain)
                 findings.append(_finding(name, points, others, near, domain))
     return findings

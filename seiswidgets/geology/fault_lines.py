@@ -8,17 +8,23 @@ from shapely import LineString, Point
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import substring
 
+from seiswidgets.core.linework import longest_first
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.picks import AUTO, EXTEND, TIP, Ends
 from seiswidgets.geology.shared_stretches import follow, shared_stretches
 
 MERGED = 0.01  # of the mesh spacing: points closer than this become one
-REACH = 0.25  # of the mesh spacing: a fault that ends so close to the border or to another fault meets it
+FINE = 0.4  # of the mesh spacing: points closer than this, where the fault bends, are averaged
+TOUCHING = 1e-9  # of the mesh spacing: rounding
 CLOSE = 0.05  # of the mesh spacing: a drawn point so close to a cut-off, a crossing or a tip gives way to it
 EDGES = 8  # at least, along each fault
+NEAR = 3.0  # traces and samples: a fault that ends so close to the border or to another fault meets it
+AHEAD = 3.0  # times that, straight ahead
 SHARPEST = np.radians(10)  # between two stretches of a fault: less makes slivers of rock
 
 Position = tuple[float, float]
+NO_ENDS: Mapping[str, Ends] = {}
 
 
 def merge_close_points(points: np.ndarray, spacing: float) -> np.ndarray:
@@ -32,26 +38,53 @@ def merge_close_points(points: np.ndarray, spacing: float) -> np.ndarray:
     return np.array(kept)
 
 
-def fault_lines(faults: Mapping[str, np.ndarray], domain: RestorationDomain) -> dict[str, LineString]:
+def resample_fine(points: np.ndarray, tolerance: float, step: float) -> np.ndarray:
+    """Replace points that lie closer together than a mesh can follow, if any do, by fewer.
+
+    Points within the tolerance of a straight line are left out. Where the others still lie closer together than
+    ``step``, each group of them is replaced by its mean, which also smooths the jitter of a hand. The ends stay.
+    """
+    if np.hypot(*np.diff(points, axis=0).T).min() >= step:
+        return points
+    points = shapely.get_coordinates(LineString(points).simplify(tolerance))
+    groups = [[points[0]]]
+    for point in points[1:]:
+        if np.hypot(*(point - groups[-1][0])) < step:
+            groups[-1].append(point)
+        else:
+            groups.append([point])
+    inner = [np.mean(group, axis=0) for group in groups[1:]]
+    while inner and np.hypot(*(points[-1] - inner[-1])) < step:
+        inner.pop()
+    return np.array([points[0], *inner, points[-1]])
+
+
+def fault_lines(
+    faults: Mapping[str, np.ndarray], domain: RestorationDomain, ends: Mapping[str, Ends] = NO_ENDS
+) -> dict[str, LineString]:
     """Faults ready to be cut: without repeated points, and meeting what they nearly meet.
+
+    Their shapes depend neither on the order of the faults nor on the direction in which each was drawn.
 
     Parameters
     ----------
     faults : dict of str to array, shape (n, 2)
         In metres of rock.
     domain : RestorationDomain
+    ends : dict of str to pair of str, optional
+        See `Fault.ends`; "auto" for faults without an entry.
 
     Raises
     ------
     PickError
         If a fault is no longer than the spacing or turns back on itself, or lies on top of another one as a whole.
     """
-    lines = _follow_earlier({name: _line(name, points, domain) for name, points in faults.items()}, domain)
-    extended: dict[str, LineString] = {}
-    for name, line in lines.items():
-        others = [extended.get(other, lines[other]) for other in lines if other != name]
-        extended[name] = _fit_ends(line, [domain.outline.boundary, *others], REACH * domain.spacing)
-    return extended
+    drawn = {name: _line(name, points, domain) for name, points in faults.items()}
+    lines = _follow_longer(drawn, domain)
+    for name in lines:
+        others = [domain.outline.boundary, *(line for other, line in lines.items() if other != name)]
+        lines[name] = _fit_ends(lines[name], others, ends.get(name, (AUTO, AUTO)), domain)
+    return {name: lines[name] for name in faults}
 
 
 def _line(name: str, points: np.ndarray, domain: RestorationDomain) -> LineString:
@@ -59,13 +92,14 @@ def _line(name: str, points: np.ndarray, domain: RestorationDomain) -> LineStrin
     length = np.hypot(*np.diff(points, axis=0).T).sum() if len(points) > 1 else 0.0
     if length <= domain.spacing:
         raise PickError(
-            f"fault {name!r} near {domain.where(points[0])} is {length:.4g} m long, no longer than the mesh spacing of "
-            f"{domain.spacing:.4g} m; reduce ",
+            f"fault {name!r} near {domain.where(points[0])} is {domain.length(length)} long, no longer than the mesh "
+            f"spacing of {domain.spacing:.4g} m; reduce ",
             Keyword("spacing"),
             ", or leave the fault out",
             pick=name,
             where=domain.position(points[0]),
         )
+    points = resample_fine(points, domain.tolerance, min(FINE * domain.spacing, FINE * length / EDGES))
     _check_onward(name, points, domain)
     return domain.simplify(LineString(points)) if domain.quick else LineString(points)
 
@@ -83,17 +117,20 @@ def _check_onward(name: str, points: np.ndarray, domain: RestorationDomain) -> N
         )
 
 
-def _follow_earlier(drawn: Mapping[str, LineString], domain: RestorationDomain) -> dict[str, LineString]:
-    """Make faults coincide exactly on the stretches that they share; PickError if one has no stretch of its own."""
+def _follow_longer(drawn: Mapping[str, LineString], domain: RestorationDomain) -> dict[str, LineString]:
+    """Make faults coincide exactly on the stretches that they share, longest first.
+
+    PickError if one has no stretch of its own.
+    """
     lines: dict[str, LineString] = {}
-    for name, line in drawn.items():
+    for name, line in sorted(drawn.items(), key=lambda item: longest_first(item[1])):
         for other, earlier in lines.items():
             shared = shared_stretches(line, earlier, domain.sample)
             if sum(stop - start for start, stop in shared) > line.length - domain.spacing:
                 point = line.interpolate(0.5, normalized=True).coords[0]
                 raise PickError(
                     f"faults {other!r} and {name!r} lie on top of each other near {domain.where(point)}, for "
-                    f"{line.length:.4g} m; keep one, or move them apart",
+                    f"{domain.length(line.length)}; keep one, or move them apart",
                     pick=name,
                     where=domain.position(point),
                 )
@@ -101,22 +138,61 @@ def _follow_earlier(drawn: Mapping[str, LineString], domain: RestorationDomain) 
     return lines
 
 
-def _fit_ends(line: LineString, others: Sequence[BaseGeometry], reach: float) -> LineString:
+def _fit_ends(
+    line: LineString, others: Sequence[BaseGeometry], ends: Sequence[str], domain: RestorationDomain
+) -> LineString:
     """Extend the ends of a fault to a line that they nearly meet, or cut them back to it."""
     start, stop = 0.0, line.length
-    for crossing in (point for other in others for point in _common_points(line, other)):
-        arc_length = line.project(crossing)
-        if 0 < arc_length < reach:
+    for arc_length in (line.project(point) for other in others for point in _common_points(line, other)):
+        if ends[0] == AUTO and 0 < arc_length <= line.length / 2 and _is_near(substring(line, 0, arc_length), domain):
             start = max(start, arc_length)
-        elif 0 < line.length - arc_length < reach:
+        before_end = substring(line, arc_length, line.length)
+        if ends[1] == AUTO and line.length / 2 < arc_length < line.length and _is_near(before_end, domain):
             stop = min(stop, arc_length)
     points = shapely.get_coordinates(substring(line, start, stop))
-    for which, cut in ((0, start > 0), (-1, stop < line.length)):
-        near = [other.interpolate(other.project(Point(points[which]))) for other in others]
-        distance, target = min((Point(points[which]).distance(point), point.coords[0]) for point in near)
-        if not cut and 0 < distance < reach:
-            points = np.insert(points, 0 if which == 0 else len(points), target, axis=0)
+    if start == 0 and ends[0] != TIP:
+        points = _extend_end(points[::-1], others, ends[0], domain)[::-1]
+    if stop == line.length and ends[1] != TIP:
+        points = _extend_end(points, others, ends[1], domain)
     return LineString(points)
+
+
+def _is_near(stub: LineString, domain: RestorationDomain) -> bool:
+    """True for a stretch of a fault that ends within three traces and samples of its start."""
+    return bool(np.hypot(*(np.diff(stub.coords, axis=0).sum(axis=0) / domain.cell)) <= NEAR)
+
+
+def _extend_end(
+    points: np.ndarray, others: Sequence[BaseGeometry], choice: str, domain: RestorationDomain
+) -> np.ndarray:
+    """Draw the last point on to what it nearly meets: straight ahead if that is not far, else by the shortest way."""
+    tip = points[-1]
+    nearest = [np.array(other.interpolate(other.project(Point(tip))).coords[0]) for other in others]
+    if any(np.hypot(*(point - tip)) <= TOUCHING * domain.spacing for point in nearest):
+        return points
+    near = [point for point in nearest if np.hypot(*((point - tip) / domain.cell)) <= NEAR]
+    if choice == AUTO and not near:
+        return points
+    ahead = _heading(points, NEAR * float(np.max(domain.cell)))
+    low, high = np.reshape(domain.outline.bounds, (2, 2))
+    reach = np.hypot(*(high - low)) if choice == EXTEND else AHEAD * NEAR / np.hypot(*(ahead / domain.cell))
+    met = shapely.intersection(LineString([tip, tip + reach * ahead]), others)
+    hits = list(shapely.get_coordinates(shapely.shortest_line(met[~shapely.is_empty(met)], Point(tip)))[::2])
+    if not hits and not near:
+        return points
+    target = min(hits or near, key=lambda point: float(np.hypot(*(point - tip))))
+    kept = points[:-1] if LineString([points[-2], target]).distance(Point(tip)) < TOUCHING * domain.spacing else points
+    return np.append(kept, [target], axis=0)
+
+
+def _heading(points: np.ndarray, back: float) -> np.ndarray:
+    """The unit vector in which a line continues at its end: that of its last segment, or of its last stretch."""
+    line = LineString(points)
+    before = points[-2]
+    if np.hypot(*(points[-1] - before)) < back:
+        before = np.array(line.interpolate(max(line.length - back, line.length / 2)).coords[0])
+    arm = points[-1] - before
+    return np.asarray(arm / np.hypot(*arm))
 
 
 def _common_points(line: LineString, other: BaseGeometry) -> list[Point]:

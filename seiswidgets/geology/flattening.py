@@ -16,7 +16,9 @@ from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import merge_close_points
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.observations import observe_level
+from seiswidgets.geology.picks import HORIZON
 from seiswidgets.geology.segments import join_pieces
 from seiswidgets.geology.solve import SolverOptions, minimise, reusable_setup, warm_start
 from seiswidgets.geology.stage import Outcome, Stage
@@ -51,7 +53,13 @@ class Bed:
 
 
 def flatten_stage(
-    domain: RestorationDomain, name: str, pieces: Sequence[LineString], datum: float | None, options: SolverOptions
+    domain: RestorationDomain,
+    name: str,
+    pieces: Sequence[LineString],
+    datum: float | None,
+    options: SolverOptions,
+    *,
+    notes: Sequence[Finding] = (),
 ) -> Stage:
     """Make a horizon level.
 
@@ -65,6 +73,8 @@ def flatten_stage(
     datum : float or None
         In metres of rock; None for the horizon's mean level.
     options : SolverOptions
+    notes : list of Finding
+        About the picks, for the report.
     """
     began = time.perf_counter()
     fingerprint = domain.fingerprint({name: pieces})
@@ -80,13 +90,13 @@ def flatten_stage(
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=mesh.vertex_areas)
     vertices[:, 0] -= drift  # a shift of the whole sideways costs nothing: choose the least
     observe = partial(observe_level, name, bed, level, vertices, domain)
-    outcome = Outcome((name,), solution, options.solver, time.perf_counter() - began, observe)
+    outcome = Outcome((name,), solution, options.solver, time.perf_counter() - began, observe, tuple(notes))
     return Stage("flatten", mesh, vertices, (), domain, outcome, bed)
 
 
 def _mesh_bed(domain: RestorationDomain, name: str, pieces: Sequence[LineString], fingerprint: tuple) -> Bed:
     lines = _tidy(join_pieces(pieces, domain.spacing), domain, name)
-    mesh = domain.mesh(lines)
+    mesh = domain.mesh({(HORIZON, name): lines})
     return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), fingerprint)
 
 
@@ -111,7 +121,7 @@ def _mean_level(ends: np.ndarray) -> float:
 def _tidy(lines: Sequence[LineString], domain: RestorationDomain, name: str) -> list[LineString]:
     """Simplify the lines of a horizon; PickError if too little of it lies inside the rock."""
     pieces = [merge_close_points(shapely.get_coordinates(line), domain.spacing) for line in lines]
-    tidied = [domain.simplify(LineString(points)) for points in pieces if len(points) > 1]
+    tidied = [domain.simplify(domain.on_border(LineString(points))) for points in pieces if len(points) > 1]
     if not any(line.intersection(domain.outline).length > domain.spacing for line in tidied):
         raise PickError(
             f"horizon {name!r} is no longer than the mesh spacing of {domain.spacing:.4g} m; draw more of it, or "

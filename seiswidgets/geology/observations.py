@@ -32,7 +32,8 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
         finding for name, edges in blocks.beds.items() for finding in _stretched(name, edges, before, after, domain)
     ]
     faults, slips = blocks.network.faults, blocks.slips()
-    ends, growth = fault_end_findings(faults, slips, domain), growth_findings(faults, slips, domain)
+    ends = fault_end_findings(faults, slips, domain, blocks.ends)
+    growth = growth_findings(faults, slips, domain)
     return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *growth, *ends))
 
 

@@ -9,10 +9,12 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
-from seiswidgets.errors import PickError
+from seiswidgets.errors import PickError, SettingError, number_text
 from seiswidgets.geology.section import filled
 
 FAULT, HORIZON = "fault", "horizon"
+AUTO, TIP, EXTEND = "auto", "tip", "extend"  # what happens to an end of a fault
+Ends = tuple[str, str]  # for the first and the last point of a fault
 SEGMENTS_AT_ONCE = 64  # of a line, tested together for one that meets an earlier one
 
 
@@ -26,17 +28,28 @@ class Fault:
         Rows ``(x, z)`` in the section's units.
     name : str
         Its name in errors and reports.
+    ends : {"auto", "tip", "extend"}, or a pair of these for the first and the last point
+        "auto" draws an end that lies within three traces and samples of the border or of another fault on to it, and
+        reports every other end inside the section. "tip" leaves the end where it is: the fault dies out there.
+        "extend" draws it on, straight ahead, to the border or the first fault in its way.
 
     Raises
     ------
     PickError
         If there are fewer than two different points, if one is not finite, or if the line crosses itself.
+    SettingError
+        If ``ends`` is not one of these.
     """
 
     points: np.ndarray
     name: str = "fault"
+    ends: str | Ends = AUTO
 
     def __post_init__(self) -> None:
+        ends = (self.ends, self.ends) if isinstance(self.ends, str) else tuple(self.ends)
+        if len(ends) != 2 or not set(ends) <= {AUTO, TIP, EXTEND}:
+            raise SettingError(f"ends must be 'auto', 'tip' or 'extend', or two of them, but is {self.ends!r}")
+        object.__setattr__(self, "ends", ends)
         object.__setattr__(self, "points", _polyline(self.points, f"fault {self.name!r}", self.name))
 
 
@@ -168,13 +181,17 @@ def _polyline(points: ArrayLike, what: str, name: str) -> np.ndarray:
         raise PickError(f"{what} needs at least two different points, but has {count}", pick=name)
     x, z = line[0].tolist()
     if (line[0] == line[-1]).all():
-        raise PickError(f"{what} closes on itself at x={x:g}, z={z:g}; leave it open", pick=name, where=(x, z))
+        raise PickError(f"{what} closes on itself at {_at(x, z)}; leave it open", pick=name, where=(x, z))
     if not shapely.LineString(line).is_simple:
         x, z = _self_crossing(line)
-        text = f"{what} crosses itself near x={x:g}, z={z:g}; redraw it or split it in two"
+        text = f"{what} crosses itself near {_at(x, z)}; redraw it or split it in two"
         raise PickError(text, pick=name, where=(x, z))
     line.setflags(write=False)
     return line
+
+
+def _at(x: float, z: float) -> str:
+    return f"x={number_text(x)}, z={number_text(z)}"
 
 
 def _self_crossing(line: np.ndarray) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from shapely import LineString
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
+from seiswidgets.geology.clipping import CLIPPED, clip_findings
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage
@@ -134,10 +135,12 @@ class Restoration:
         named_boundaries = validation.named_picks(boundaries, Fault, "fault")
         held = None if fixed is None else carried_point(self.original, self.stages, fixed)
         lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in named_faults.items()}
+        ends = {name: fault.ends for name, fault in named_faults.items()}
         beds = {name: carried_horizon(self.original, self.stages, bed) for name, bed in named_horizons.items()}
         others = {name: fault for name, fault in named_boundaries.items() if fault not in named_faults.values()}
         walls = carried_boundaries(self.original, self.stages, others)
-        stage = unfault_stage(self.domain, lines, beds, held, solver_options, walls)
+        notes = self._clipped(*named_faults.values(), *named_horizons.values())
+        stage = unfault_stage(self.domain, lines, beds, held, solver_options, walls, ends=ends, notes=notes)
         return replace(self, stages=(*self.stages, stage))
 
     def flatten(
@@ -168,8 +171,14 @@ class Restoration:
         if datum is not None:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
         pieces = carried_horizon(self.original, self.stages, horizon)
-        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options)
+        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, notes=self._clipped(horizon))
         return replace(self, stages=(*self.stages, stage))
+
+    def _clipped(self, *picks: Fault | Horizon) -> tuple[Finding, ...]:
+        """Notes about picks that stick out of the section, unless an earlier stage has them."""
+        noted = {note.pick for stage in self.stages for note in stage.outcome.notes if note.kind == CLIPPED}
+        notes = [note for note in clip_findings(self.original, picks) if note.pick not in noted]
+        return tuple(replace(note, where=None) if self.stages else note for note in notes)
 
     @cached_property
     def domain(self) -> RestorationDomain:

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seiswidgets.errors import Keyword, SectionError
+from seiswidgets.errors import Keyword, SectionError, number_text
 
 METRES = {"m": 1.0, "km": 1000.0, "ft": 0.3048}
 SECONDS = {"s": 1.0, "ms": 0.001}
@@ -141,15 +141,26 @@ class Section:
         x_min, x_max, z_min, z_max = self.extent
         return np.asarray((x >= x_min) & (x <= x_max) & (z >= z_min) & (z <= z_max))
 
+    def where(self, point: ArrayLike) -> str:
+        """Text for a position, with its units."""
+        x, z = np.asarray(point, float).tolist()
+        return f"x={number_text(x)} {self.x_unit}, z={number_text(z)} {self.z_unit}"
+
+    @property
+    def reach(self) -> str:
+        """Text for the section's extent, with its units."""
+        x_min, x_max, z_min, z_max = map(number_text, self.extent)
+        return f"x={x_min} to {x_max} {self.x_unit} and from z={z_min} to {z_max} {self.z_unit}"
+
     def __repr__(self) -> str:
         nz, nx = self.shape
-        x_min, x_max, z_min, z_max = self.extent
+        x_min, x_max, z_min, z_max = map(number_text, self.extent)
         speed = f", {self.velocity:g} m/s" if self.is_time else ""
         name = f" {self.name!r}" if self.name else ""
         credit = f"\n  data: {self.credit!r}" if self.credit else ""
         return (
-            f"<Section{name}: {nx} traces x {nz} samples, x {x_min:g} to {x_max:g} {self.x_unit}, "
-            f"z {z_min:g} to {z_max:g} {self.z_unit}{speed}>{credit}"
+            f"<Section{name}: {nx} traces x {nz} samples, x {x_min} to {x_max} {self.x_unit}, "
+            f"z {z_min} to {z_max} {self.z_unit}{speed}>{credit}"
         )
 
 

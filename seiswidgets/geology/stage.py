@@ -56,6 +56,8 @@ class Outcome:
     seconds : float
     observe : callable() -> Observations
         Measures what the solution has done to cut-offs, seams and beds.
+    notes : tuple of Finding
+        About how the picks were brought into the mesh.
     """
 
     picks: tuple[str, ...]
@@ -63,6 +65,7 @@ class Outcome:
     solver: str
     seconds: float
     observe: Callable[[], Observations]
+    notes: tuple[Finding, ...] = ()
 
     @property
     def energy(self) -> dict[str, float]:
@@ -138,6 +141,7 @@ class Stage:
             *self._unsettled(),
             *folds,
             *observations.findings,
+            *outcome.notes,
             *self._overlapping(overlap),
             *self._gaping(holes),
         )

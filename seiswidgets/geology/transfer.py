@@ -12,14 +12,17 @@ from shapely import LineString
 from seiswidgets.core.resampling import resample
 from seiswidgets.errors import PickError
 from seiswidgets.geology import validation
+from seiswidgets.geology.clipping import clip_line
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
 
 
 def carried_fault(original: Section, stages: Sequence[Stage], fault: Fault) -> np.ndarray:
-    """The points of a fault after some stages, shape (n, 2)."""
+    """The points of a fault after some stages, shape (n, 2); what sticks out of the section is left out."""
     lines = _carried_parts(original, stages, fault)
+    if not lines and not clip_line(original, fault.points):
+        raise _outside(original, f"fault {fault.name!r}", fault)
     if not lines:
         raise PickError(
             f"nothing is left of fault {fault.name!r} after the stages before; it lies outside the rock",
@@ -37,31 +40,38 @@ def carried_boundaries(
 
 
 def _carried_parts(original: Section, stages: Sequence[Stage], fault: Fault) -> list[LineString]:
-    points = validation.rock_points(original, fault.points, f"fault {fault.name!r}", fault.name)
-    lines = [LineString(points)]
+    lines = [LineString(points) for points in clip_line(original, fault.points)]
     for stage in stages:
         lines = [moved for line in lines for moved in stage.carried_fault(line)]
     return lines
 
 
 def carried_horizon(original: Section, stages: Sequence[Stage], horizon: Horizon) -> list[LineString]:
-    """The pieces of a horizon after some stages, joined where they now meet."""
-    lines = [
-        LineString(validation.rock_points(original, piece, f"piece {index} of horizon {horizon.name!r}", horizon.name))
-        for index, piece in enumerate(horizon.pieces, 1)
-    ]
+    """The pieces of a horizon after some stages, joined where they now meet; without what sticks out of the section."""
+    lines = [LineString(points) for piece in horizon.pieces for points in clip_line(original, piece)]
+    if not lines:
+        raise _outside(original, f"horizon {horizon.name!r}", horizon)
     for stage in stages:
         lines = stage.carried_horizon(lines)
     return lines
 
 
+def _outside(original: Section, what: str, pick: Fault | Horizon) -> PickError:
+    x, z = (pick.points if isinstance(pick, Fault) else pick.pieces[0])[0].tolist()
+    return PickError(
+        f"{what} lies outside the section, which reaches from {original.reach}; leave it out, or check its coordinates",
+        pick=pick.name,
+        where=(x, z),
+    )
+
+
 def carried_point(original: Section, stages: Sequence[Stage], fixed: ArrayLike) -> np.ndarray:
     """The held point after some stages, shape (2,)."""
     try:
-        point = validation.as_points(fixed).reshape(1, 2)
+        point = validation.as_points(fixed).reshape(2)
     except ValueError:
         raise PickError(f"fixed must be one point (x, z), but is {fixed!r}") from None
-    point = validation.rock_points(original, point, "fixed")
+    point = validation.point_in_section(original, point, "fixed")[None]
     for stage in stages:
         point = stage.map.forward(point)
     return point[0]

@@ -20,8 +20,18 @@ from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import CLOSE, EDGES, fault_crossings, fault_lines, insert_points, route_through
+from seiswidgets.geology.fault_lines import (
+    CLOSE,
+    EDGES,
+    NO_ENDS,
+    fault_crossings,
+    fault_lines,
+    insert_points,
+    route_through,
+)
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.observations import observe_slip
+from seiswidgets.geology.picks import FAULT, HORIZON, Ends
 from seiswidgets.geology.segments import horizon_segments
 from seiswidgets.geology.shared_stretches import follow
 from seiswidgets.geology.solve import GAUSS_NEWTON, SolverOptions, minimise, reusable_setup, warm_start
@@ -48,6 +58,8 @@ class Blocks:
         Faults that stay as they are.
     fingerprint : tuple
         Everything that shaped the mesh.
+    ends : dict of str to pair of str
+        See `Fault.ends`.
     """
 
     cut: Cut
@@ -58,6 +70,7 @@ class Blocks:
     beds: dict[str, list[np.ndarray]]
     boundaries: tuple[LineString, ...]
     fingerprint: tuple
+    ends: Mapping[str, Ends]
 
     @property
     def mesh(self) -> Mesh:
@@ -87,6 +100,9 @@ def unfault_stage(
     fixed: np.ndarray | None,
     options: SolverOptions,
     boundaries: Mapping[str, np.ndarray],
+    *,
+    ends: Mapping[str, Ends] = NO_ENDS,
+    notes: Sequence[Finding] = (),
 ) -> Stage:
     """Undo the slip on some faults.
 
@@ -100,14 +116,17 @@ def unfault_stage(
     options : SolverOptions
     boundaries : dict of str to array, shape (n, 2)
         Faults that are not restored in this stage, and that beds do not cross.
+    ends : dict of str to pair of str
+        See `Fault.ends`.
+    notes : list of Finding
+        About the picks, for the report.
     """
     began = time.perf_counter()
     others = [LineString(points) for points in boundaries.values()]
     drawn = {name: [LineString(points)] for name, points in faults.items()}
-    fingerprint = domain.fingerprint(drawn, horizons, {"": others})
-    blocks = reusable_setup(options.start, Blocks, fingerprint) or _mesh_blocks(
-        domain, faults, horizons, others, fingerprint
-    )
+    fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends
+    blocks = reusable_setup(options.start, Blocks, fingerprint)
+    blocks = blocks or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends)
     mesh, free = blocks.mesh, _free(blocks.mesh, fixed, domain)
     terms = _terms(blocks, options.weights)
     start = warm_start(mesh, free, options.start)
@@ -121,7 +140,8 @@ def unfault_stage(
     welded, vertices = weld_seams(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
     observe = partial(observe_slip, blocks, solution, domain)
     faults_drawn = blocks.network.faults
-    outcome = Outcome(tuple(faults_drawn), solution, options.solver, time.perf_counter() - began, observe)
+    seconds = time.perf_counter() - began
+    outcome = Outcome(tuple(faults_drawn), solution, options.solver, seconds, observe, tuple(notes))
     return Stage("unfault", welded, vertices, tuple(faults_drawn.values()), domain, outcome, blocks, blocks.boundaries)
 
 
@@ -131,16 +151,19 @@ def _mesh_blocks(
     horizons: Mapping[str, Sequence[LineString]],
     boundaries: Sequence[LineString],
     fingerprint: tuple,
+    ends: Mapping[str, Ends],
 ) -> Blocks:
-    lines = fault_lines(faults, domain)
+    lines = fault_lines(faults, domain, ends)
     boundaries = [follow(line, lines.values(), domain.sample) for line in boundaries]
-    network = _network(lines, horizons, boundaries, domain)
+    laid = {name: [domain.on_border(piece) for piece in pieces] for name, pieces in horizons.items()}
+    network = _network(lines, laid, boundaries, domain)
     cutoffs = network.cutoffs()
     lines = {name: _meshed_line(line, network.ends_at(name), domain) for name, line in network.faults.items()}
     bed_lines = {
         name: [domain.simplify(segment.line) for segment in segments] for name, segments in network.horizons.items()
     }
-    whole = domain.mesh([*lines.values(), *(line for bed in bed_lines.values() for line in bed)])
+    meshed = {(FAULT, name): [line] for name, line in lines.items()}
+    whole = domain.mesh(meshed | {(HORIZON, name): bed for name, bed in bed_lines.items()})
     edges = _own_edges({name: _inner_edges(whole, line, name, domain) for name, line in lines.items()})
     cut_edges = np.concatenate(list(edges.values()))
     cut = whole.cut(cut_edges)
@@ -150,7 +173,7 @@ def _mesh_blocks(
     }
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, network)
-    return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint)
+    return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint, ends)
 
 
 def _network(

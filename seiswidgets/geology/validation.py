@@ -5,11 +5,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seiswidgets.errors import PickError, SettingError
+from seiswidgets.errors import PickError, SettingError, number_text
+from seiswidgets.geology.clipping import onto_border
 from seiswidgets.geology.picks import Fault, Horizon, Pick
 from seiswidgets.geology.section import Section
-
-ROUNDING = 1e-6  # of a trace or a sample
 
 
 def finite_number(name: str, value: object) -> float:
@@ -78,34 +77,20 @@ def named_picks(picks: Pick | Iterable[Pick], kind: type[Pick], word: str) -> di
     return named
 
 
-def rock_points(section: Section, points: np.ndarray, what: str, pick: str | None = None) -> np.ndarray:
-    """Convert points of a section to metres of rock; points outside by no more than rounding move onto the border.
-
-    Parameters
-    ----------
-    section : Section
-    points : array, shape (n, 2)
-    what : str
-        Name of the line or the point in errors.
-    pick : str, optional
-        Name of the fault or horizon concerned.
+def point_in_section(section: Section, point: np.ndarray, what: str) -> np.ndarray:
+    """Validate a point of the section, shape (2,), and convert it to metres of rock.
 
     Raises
     ------
     PickError
-        If a point lies outside.
+        If it lies outside by more than rounding; ``what`` names it.
     """
-    x_min, x_max, z_min, z_max = section.extent
-    clipped = np.clip(points, (x_min, z_min), (x_max, z_max))
-    outside = ~(np.abs(points - clipped) <= ROUNDING * np.array([section.dx, section.dz])).all(axis=1)
-    if outside.any():
-        index = int(np.argmax(outside))
-        x, z = points[index].tolist()
+    clipped = onto_border(section, point)
+    if not section.contains(clipped):
+        x, z = point.tolist()
         raise PickError(
-            f"{what if len(points) == 1 else f'point {index + 1} of {what}'} lies outside the section, at "
-            f"({x:.6g} {section.x_unit}, {z:.6g} {section.z_unit}); the section reaches from x={x_min:g} to {x_max:g} "
-            f"{section.x_unit} and from z={z_min:g} to {z_max:g} {section.z_unit}",
-            pick=pick,
+            f"{what} lies outside the section, at ({number_text(x)} {section.x_unit}, {number_text(z)} "
+            f"{section.z_unit}); the section reaches from {section.reach}",
             where=(x, z),
         )
     return section.to_rock(clipped)

@@ -1,5 +1,7 @@
 """Faults as they are cut: tidied, joined to what they nearly reach, and told apart."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -7,12 +9,12 @@ from shapely import LineString
 
 import seiswidgets as sw
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import MERGED, REACH, fault_lines, insert_points, merge_close_points
+from seiswidgets.geology.fault_lines import MERGED, NEAR, fault_lines, insert_points, merge_close_points
 
-SECTION = sw.Section(np.ones((201, 81), np.float32), dx=25, dz=5)
+SECTION = sw.Section(np.ones((101, 201), np.float32), dx=10, dz=10)
 SPACING = 100.0
 GROUND = RestorationDomain(shapely.box(0, 0, 2000, 1000), SECTION, SPACING)
-NEAR, FAR = 0.9 * REACH * SPACING, 1.1 * REACH * SPACING
+CLOSE, FAR = 0.9 * NEAR * 10, 1.1 * NEAR * 10
 
 
 def lines(**faults):
@@ -25,9 +27,56 @@ def arrays(faults):
 
 @pytest.mark.parametrize("turned", [1, -1])
 def test_tips_near_the_border_meet_it(turned):
-    drawn = [(800, NEAR), (900, 500), (1000, 1000 - NEAR)][::turned]
+    drawn = [(800, CLOSE), (900, 500), (1000, 1000 - CLOSE)][::turned]
     line = lines(F=drawn)["F"][::turned]
-    np.testing.assert_allclose(line, [(800, 0), *drawn[::turned], (1000, 1000)])
+    slope = 100 / (500 - CLOSE)  # straight ahead
+    np.testing.assert_allclose(line, [(900 - 500 * slope, 0), (900, 500), (900 + 500 * slope, 1000)])
+
+
+@pytest.mark.parametrize("spacing", [40.0, 100.0, 250.0])
+@pytest.mark.parametrize("short", [5.0, CLOSE, FAR, 60.0])
+def test_the_mesh_does_not_decide_which_ends_meet_the_border(spacing, short):
+    found = fault_lines({"F": np.array([(900.0, short), (1000, 1000)])}, replace(GROUND, requested_spacing=spacing))
+    assert (found["F"].coords[0][1] == 0) == (short < FAR)
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+def test_a_chosen_tip_stays_and_an_end_to_extend_reaches_what_lies_ahead(turned):
+    drawn = np.array([(900.0, 5), (900, 400)])[::turned]
+    found = fault_lines({"F": drawn}, GROUND, {"F": ("tip", "extend")[::turned]})["F"]
+    np.testing.assert_allclose(found.coords[::turned], [(900, 5), (900, 1000)])
+    both = fault_lines(arrays({"F": drawn, "sill": [(100, 700), (1800, 700)]}), GROUND, {"F": ("extend", "extend")})
+    np.testing.assert_allclose(both["F"].coords[::turned], [(900, 0), (900, 700)])
+
+
+def test_a_gentle_fault_is_drawn_on_straight_ahead_not_upwards():
+    found = lines(F=[(1300, 300), (500, 20)])["F"]
+    np.testing.assert_allclose(found, [(1300, 300), (500 - 20 * 800 / 280, 0)])
+
+
+def test_lines_depend_neither_on_the_order_of_the_faults_nor_on_their_direction():
+    drawn = {
+        "long": [(1000, 10), (1000, 990)],
+        "near": [(500, 505), (985, 500)],
+        "over": [(1500, 300), (980, 310)],
+        "tip to tip": [(480, 505), (100, 400)],
+    }
+    found = lines(**drawn)
+    other = lines(**{name: points[::-1] for name, points in list(drawn.items())[::-1]})
+    for name, line in found.items():
+        np.testing.assert_allclose(other[name][::-1], line, atol=1e-9)
+
+
+@pytest.mark.parametrize("step", [2.0, 7.0, 60.0])
+@pytest.mark.parametrize("jitter", [0.0, 1.5])
+def test_fine_digitising_is_resampled(step, jitter):
+    z = np.arange(0, 1000 + step / 2, step)
+    noise = np.random.default_rng(3).normal(size=len(z)) * jitter
+    noise[[0, -1]] = 0
+    bend = np.where(z < 500, 0, 0.5 * (z - 500))
+    found = lines(F=np.column_stack([800 + bend + noise, z]))["F"]
+    assert np.hypot(*np.diff(found, axis=0).T).min() > min(step, 0.25 * SPACING)
+    assert np.abs(found[:, 0] - 800 - np.interp(found[:, 1], z, bend)).max() < 2 * jitter + 4
 
 
 def test_tips_far_from_the_border_stay():
@@ -43,16 +92,16 @@ def test_faults_that_reach_the_border_exactly_stay():
 @pytest.mark.parametrize("turned", [1, -1])
 @pytest.mark.parametrize("order", [1, -1])
 def test_tips_near_another_fault_meet_it(turned, order):
-    main, branch = [(1000, 0), (1000, 1000)], [(500, 0), (1000 - NEAR, 500)][::turned]
+    main, branch = [(1000, 0), (1000, 1000)], [(500, 0), (1000 - CLOSE, 500)][::turned]
     found = lines(**dict([("main", main), ("branch", branch)][::order]))
     np.testing.assert_array_equal(found["main"], main)
-    np.testing.assert_allclose(found["branch"][::turned], [(500, 0), (1000 - NEAR, 500), (1000, 500)])
+    np.testing.assert_allclose(found["branch"][::turned], [(500, 0), (1000, 500 + 500 * CLOSE / (500 - CLOSE))])
 
 
 @pytest.mark.parametrize("turned", [1, -1])
 @pytest.mark.parametrize("order", [1, -1])
 def test_overshoots_beyond_another_fault_are_trimmed(turned, order):
-    main, branch = [(1000, 0), (1000, 1000)], [(500, 500), (1000 + NEAR, 500)][::turned]
+    main, branch = [(1000, 0), (1000, 1000)], [(500, 500), (1000 + CLOSE, 500)][::turned]
     found = lines(**dict([("main", main), ("branch", branch)][::order]))
     np.testing.assert_allclose(found["branch"][::turned], [(500, 500), (1000, 500)])
 
@@ -135,7 +184,7 @@ def test_insert_points(turned):
 
 @pytest.mark.parametrize(
     "tips",
-    [(0, 1000), (NEAR, 1000), (FAR, 1000), (1e-9, 1000), (0, 1000 - 1e-7), (5, 995)],
+    [(0, 1000), (CLOSE, 1000), (FAR, 1000), (1e-9, 1000), (0, 1000 - 1e-7), (5, 995)],
 )
 def test_a_section_comes_apart_where_its_fault_meets_the_border(tips):
     fault = sw.Fault([(900, tips[0]), (1100, tips[1])])

@@ -51,10 +51,10 @@ def test_a_clean_section_has_no_findings():
 @pytest.mark.parametrize(
     ("section", "shortfall", "words"),
     [
-        ("depth", 25, "F1 dies out 25 m below the top of the section"),
+        ("depth", 65, "F1 dies out 65 m below the top of the section"),
         ("depth", 95, "F1 dies out 95 m below the top of the section"),
-        ("time", 30, "F1 dies out 15 ms below the top of the section"),
-        ("km", 25, "F1 dies out 25 m below the top of the section"),
+        ("time", 70, "F1 dies out 35 ms below the top of the section"),
+        ("km", 65, "F1 dies out 65 m below the top of the section"),
     ],
 )
 def test_a_fault_that_ends_just_below_the_top(section, shortfall, words):
@@ -68,15 +68,15 @@ def test_a_fault_that_ends_just_below_the_top(section, shortfall, words):
 
 
 def test_other_borders_are_named_too():
-    fault, beds = drawn(bottom=DEPTH - 40)
+    fault, beds = drawn(bottom=DEPTH - 80)
     (end,) = of_kind(unfaulted(fault, beds).findings, "fault end")
-    assert end.text.startswith("F1 dies out 40 m above the bottom of the section;")
-    level = sw.Fault([(30, 600), (1500, 900), (3960, 1100)], name="thrust")
+    assert end.text.startswith("F1 dies out 80 m above the bottom of the section;")
+    level = sw.Fault([(90, 600), (1500, 900), (3910, 1100)], name="thrust")
     bed = sw.Horizon([(400, 100), (1400, 879.6)], [(1600, 908.1), (2600, 1500)], name="H")
     ends = of_kind(unfaulted(level, bed).findings, "fault end")
     assert [end.text.split(";")[0] for end in ends] == [
-        "thrust dies out 30 m from the left border of the section",
-        "thrust dies out 40 m from the right border of the section",
+        "thrust dies out 90 m from the left border of the section",
+        "thrust dies out 90 m from the right border of the section",
     ]
 
 
@@ -102,7 +102,7 @@ def test_genuine_blind_faults_are_no_errors():
 
 
 @pytest.mark.parametrize(
-    ("gap", "words"), [(40, "F2 ends 40 m short of F1 near x="), (-40, "F2 ends 40 m beyond F1 near x=")]
+    ("gap", "words"), [(90, "F2 ends 90 m short of F1 near x="), (-90, "F2 ends 90 m beyond F1 near x=")]
 )
 def test_a_fault_that_does_not_quite_reach_another(gap, words):
     fault, beds = drawn()
