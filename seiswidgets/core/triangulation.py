@@ -4,6 +4,7 @@ J. R. Shewchuk, Triangle: engineering a 2D quality mesh generator and Delaunay t
 """
 
 from collections.abc import Sequence
+
 import numpy as np
 import shapely
 import triangle

@@ -1,4 +1,4 @@
-"""Picks that stick out of the section, as fault sticks and horizons of a larger survey do: only what lies in it counts."""
+"""Picks that stick out of the section, as fault sticks of a larger survey do: only the part inside counts."""
 
 from collections.abc import Iterable
 
@@ -51,8 +51,8 @@ def clip_findings(section: Section, picks: Iterable[Fault | Horizon]) -> list[Fi
             x, z = points[np.argmax(beyond.max(axis=1))].tolist()
             what = "fault" if isinstance(pick, Fault) else "horizon"
             text = (
-                f"{what} {pick.name} sticks out of the section, as far as {section.where((x, z))}; only the part inside "
-                "is used"
+                f"{what} {pick.name} sticks out of the section, as far as {section.where((x, z))}; only the part "
+                "inside is used"
             )
             findings.append(Finding("note", CLIPPED, text, pick.name, (x, z)))
     return findings

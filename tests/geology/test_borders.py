@@ -32,7 +32,11 @@ def test_parts_inside_keep_their_order_and_direction(turned):
     [
         ({"fault": sw.Fault([(X0 + 2280, -62.25), (X0 + 2700, BOTTOM)], "F1")}, "F1", "x=1708123.6 m, z=-62.25 m"),
         ({"fault": sw.Fault([(X0 + 2300, -0.01), (X0 + 2700, BOTTOM)], "F1")}, "F1", "z=-0.01 m"),
-        ({"bed": sw.Horizon([(X0 - 3, 500), (X0 + 2450, 500)], BED.pieces[1], name="H1")}, "H1", "x=1705840.6 m, z=500"),
+        (
+            {"bed": sw.Horizon([(X0 - 3, 500), (X0 + 2450, 500)], BED.pieces[1], name="H1")},
+            "H1",
+            "x=1705840.6 m",
+        ),
     ],
 )
 def test_what_sticks_out_is_clipped_with_a_note(picks, name, where):
