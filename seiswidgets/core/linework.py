@@ -63,7 +63,7 @@ def follow_border(line: LineString, border: LineString, reach: np.ndarray) -> Li
     if not near.any():
         return line
     corners = _corners(border)
-    for index in np.flatnonzero(near):
+    for index in np.flatnonzero(near).tolist():
         to_corners = np.hypot(*((corners - points[index]) / reach).T)
         if np.min(to_corners, initial=np.inf) <= 1:
             points[index] = corners[np.argmin(to_corners)]

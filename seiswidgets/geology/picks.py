@@ -18,6 +18,14 @@ Ends = tuple[str, str]  # for the first and the last point of a fault
 SEGMENTS_AT_ONCE = 64  # of a line, tested together for one that meets an earlier one
 
 
+def both_ends(ends: str | Ends) -> Ends:
+    """Validate a choice for the ends of a fault, or a pair of choices; a pair."""
+    first, last = (ends, ends) if isinstance(ends, str) or len(ends) != 2 else ends
+    if not {first, last} <= {AUTO, TIP, EXTEND}:
+        raise SettingError(f"ends must be 'auto', 'tip' or 'extend', or two of them, but is {ends!r}")
+    return str(first), str(last)
+
+
 @dataclass(frozen=True, eq=False)
 class Fault:
     """A fault, drawn as a polyline from one end to the other.
@@ -46,10 +54,7 @@ class Fault:
     ends: str | Ends = AUTO
 
     def __post_init__(self) -> None:
-        ends = (self.ends, self.ends) if isinstance(self.ends, str) else tuple(self.ends)
-        if len(ends) != 2 or not set(ends) <= {AUTO, TIP, EXTEND}:
-            raise SettingError(f"ends must be 'auto', 'tip' or 'extend', or two of them, but is {self.ends!r}")
-        object.__setattr__(self, "ends", ends)
+        object.__setattr__(self, "ends", both_ends(self.ends))
         object.__setattr__(self, "points", _polyline(self.points, f"fault {self.name!r}", self.name))
 
 

@@ -16,7 +16,7 @@ from seiswidgets.geology.clipping import CLIPPED, clip_findings
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage
-from seiswidgets.geology.picks import Fault, Horizon
+from seiswidgets.geology.picks import Fault, Horizon, both_ends
 from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
@@ -135,7 +135,7 @@ class Restoration:
         named_boundaries = validation.named_picks(boundaries, Fault, "fault")
         held = None if fixed is None else carried_point(self.original, self.stages, fixed)
         lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in named_faults.items()}
-        ends = {name: fault.ends for name, fault in named_faults.items()}
+        ends = {name: both_ends(fault.ends) for name, fault in named_faults.items()}
         beds = {name: carried_horizon(self.original, self.stages, bed) for name, bed in named_horizons.items()}
         others = {name: fault for name, fault in named_boundaries.items() if fault not in named_faults.values()}
         walls = carried_boundaries(self.original, self.stages, others)
