@@ -64,7 +64,8 @@ def fault_lines(
 ) -> dict[str, LineString]:
     """Faults ready to be cut: without repeated points, and meeting what they nearly meet.
 
-    Their shapes depend neither on the order of the faults nor on the direction in which each was drawn.
+    Their shapes depend neither on the order of the faults nor on the direction in which each was drawn, except on
+    stretches that two faults share, which have the shape of the earlier one.
 
     Parameters
     ----------
@@ -80,11 +81,11 @@ def fault_lines(
         If a fault is no longer than the spacing or turns back on itself, or lies on top of another one as a whole.
     """
     drawn = {name: _line(name, points, domain) for name, points in faults.items()}
-    lines = _follow_longer(drawn, domain)
-    for name in lines:
+    lines = _follow_earlier(drawn, domain)
+    for name in sorted(lines, key=lambda name: longest_first(lines[name])):
         others = [domain.outline.boundary, *(line for other, line in lines.items() if other != name)]
         lines[name] = _fit_ends(lines[name], others, ends.get(name, (AUTO, AUTO)), domain)
-    return {name: lines[name] for name in faults}
+    return lines
 
 
 def _line(name: str, points: np.ndarray, domain: RestorationDomain) -> LineString:
@@ -117,13 +118,10 @@ def _check_onward(name: str, points: np.ndarray, domain: RestorationDomain) -> N
         )
 
 
-def _follow_longer(drawn: Mapping[str, LineString], domain: RestorationDomain) -> dict[str, LineString]:
-    """Make faults coincide exactly on the stretches that they share, longest first.
-
-    PickError if one has no stretch of its own.
-    """
+def _follow_earlier(drawn: Mapping[str, LineString], domain: RestorationDomain) -> dict[str, LineString]:
+    """Make faults coincide exactly on the stretches that they share; PickError if one has no stretch of its own."""
     lines: dict[str, LineString] = {}
-    for name, line in sorted(drawn.items(), key=lambda item: longest_first(item[1])):
+    for name, line in drawn.items():
         for other, earlier in lines.items():
             shared = shared_stretches(line, earlier, domain.sample)
             if sum(stop - start for start, stop in shared) > line.length - domain.spacing:
