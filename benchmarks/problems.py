@@ -31,17 +31,17 @@ class Problem(Exception):
         return gauss_newton(terms, mesh.triangles, free=self.free, tolerance=self.tolerance, **keywords)
 
 
-def problem(case, count, fixed=None) -> Problem:
+def problem(case, count, fixed=None, **options) -> Problem:
     """Problem of flattening a case's middle horizon, or of unfaulting it if it has faults; about ``count`` vertices."""
     x_min, x_max, z_min, z_max = case.section.extent
     spacing = np.sqrt((x_max - x_min) * (z_max - z_min) * 1.15 / count)
     for _ in range(3):  # picks make a mesh finer than the spacing
-        found = _problem(case, spacing, fixed)
+        found = _problem(case, spacing, fixed, options)
         spacing *= np.sqrt(len(found.mesh.vertices) / count)
     return found
 
 
-def _problem(case, spacing, fixed):
+def _problem(case, spacing, fixed, options):
     calls, rigid_blocks = [], unfaulting.rigid_blocks
 
     def recorded(*call):
@@ -59,9 +59,9 @@ def _problem(case, spacing, fixed):
     with patch.object(*changes[0]), patch.object(*changes[1]), patch.object(*changes[2]):
         try:
             if picks.faults:
-                start.unfault(picks.faults, picks.horizons, fixed=fixed)
+                start.unfault(picks.faults, picks.horizons, fixed=fixed, **options)
             else:
-                start.flatten(picks.horizons[len(picks.horizons) // 2])
+                start.flatten(picks.horizons[len(picks.horizons) // 2], **options)
         except Problem as found:
             return found
     raise RuntimeError("the stage has not called its solver")

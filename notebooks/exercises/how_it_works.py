@@ -26,7 +26,7 @@ def what_keeps_the_size(median_ratio: dict[str, float]) -> Choice:
 
 def first_step_of_a_rigid_block(count: int, slide: float, stitch: float) -> Number:
     """The share of its way that a rigid block goes in the fixed point's first iteration."""
-    pull, hold = stitch**2, count * slide**2
+    pull, hold = stitch, count * slide
     return Number(
         f"Let the block be rigid. {count} vertices on the fault are pulled to where they are with weight {slide:g}, "
         f"and one cut-off is pulled to its partner with weight {stitch:g}. What share of its way does the block go in "
@@ -34,9 +34,9 @@ def first_step_of_a_rigid_block(count: int, slide: float, stitch: float) -> Numb
         100 * pull / (pull + hold),
         "%",
         0.3,
-        "The squared weights balance: the cut-off's against those of all vertices that are held where they were.",
+        "The weights balance: the cut-off's against those of all vertices that are held where they were.",
         (
-            (100 * pull / (pull + slide**2), "That is one vertex against one. How many vertices hold the block back?"),
+            (100 * pull / (pull + slide), "That is one vertex against one. How many vertices hold the block back?"),
             (100 * pull / hold, "Nearly. The block stops where all pulls balance, the cut-off's own among them."),
             (100 * hold / (pull + hold), "That is the share still to go."),
             (100.0, "That is Gauss-Newton: its contact lets the block slide along the fault for nothing."),

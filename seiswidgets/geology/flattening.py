@@ -81,11 +81,11 @@ def flatten_stage(
     bed = reusable_setup(options.start, Bed, fingerprint) or _mesh_bed(domain, name, pieces, fingerprint)
     mesh = bed.mesh
     datum = _mean_level(mesh.vertices[bed.edges]) if datum is None else datum
-    level = Level(np.unique(bed.edges), datum, len(mesh.vertices), options.weights.flatten * bed.reach)
+    level = Level(np.unique(bed.edges), datum, len(mesh.vertices), options.row_weights.flatten * bed.reach)
     free = np.ones(len(mesh.vertices), bool)
     start = warm_start(mesh, free, options.start)
     start = mesh.vertices if start is None else start
-    solution = minimise(mesh, _terms(bed, level, options.weights), start, free, domain, options)
+    solution = minimise(mesh, _terms(bed, level, options.row_weights), start, free, domain, options)
     vertices = solution.vertices.copy()
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=mesh.vertex_areas)
     vertices[:, 0] -= drift  # a shift of the whole sideways costs nothing: choose the least

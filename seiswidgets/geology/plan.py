@@ -74,7 +74,7 @@ class Plan:
     ----------
     steps : tuple of Step
         In order; by default unfault, then flatten.
-    weights, solver, max_iterations
+    weights, solver, weighting, max_iterations
         Options of each step; see `Restoration.unfault`.
     spacing : float, optional
         Mesh spacing, in metres of rock; see `Restoration`.
@@ -108,13 +108,14 @@ class Plan:
     fixed: tuple[float, float] | None = None
     pins: tuple[tuple[float, float], ...] = ()
     regional: float | None = None
+    weighting: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "steps", tuple(self.steps))
         wrong = [step for step in self.steps if not isinstance(step, Step)]
         if wrong:
             raise SettingError(f"the steps of a plan must be seiswidgets.Step, but one is {wrong[0]!r}")
-        SolverOptions(self.weights, self.solver, self.max_iterations)  # validates them
+        SolverOptions(self.weights, self.solver, self.max_iterations, weighting=self.weighting)  # validates them
         if self.fixed is not None:
             object.__setattr__(self, "fixed", validation.held_point(self.fixed))
         if self.pins or self.regional is not None:
@@ -204,6 +205,7 @@ class RestorationJob:
         options: SolverKeywords = {
             "weights": self.plan.weights,
             "solver": self.plan.solver,
+            "weighting": self.plan.weighting,
             "max_iterations": self.plan.max_iterations,
             "progress": progress,
             "start": start,
@@ -239,7 +241,7 @@ class RestorationJob:
 
     def _inputs(self) -> Iterator[tuple]:
         """Everything that each step depends on, apart from the section and the steps before it."""
-        shared = (self.plan.solver, self.plan.spacing, self.plan.max_iterations, self.quick)
+        shared = (self.plan.solver, self.plan.weighting, self.plan.spacing, self.plan.max_iterations, self.quick)
         for step in self.steps:
             picks: list[Fault | Horizon] = [self._horizon(step)] if step.kind == FLATTEN else [*self._faults(step)]
             picks += [*self._boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else ()

@@ -108,6 +108,9 @@ class Restoration:
             Those of the paper if left out.
         solver : {"gauss-newton", "fixed-point"}
             The second is the paper's (eq. 16), kept for teaching and comparison.
+        weighting : {"norms", "rows"}, optional
+            What the weights multiply: the squared norm of each term, as in the paper's eqs. 12 and 13, or its rows, as
+            in its eq. 14. By default rows for Gauss-Newton, and for the fixed point norms, with which it is far better.
         max_iterations : int, optional
             By default 200 Gauss-Newton steps, or 1000 of the fixed point. A solver that has not settled by then says
             so in the report.
@@ -158,7 +161,7 @@ class Restoration:
         horizon : Horizon
         datum : float, optional
             The level, in the section's unit of z; the horizon's mean level if left out.
-        weights, solver, max_iterations, progress, start
+        weights, solver, weighting, max_iterations, progress, start
             As for `unfault`.
 
         Raises

@@ -128,7 +128,7 @@ def unfault_stage(
     blocks = reusable_setup(options.start, Blocks, fingerprint)
     blocks = blocks or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends)
     mesh, free = blocks.mesh, _free(blocks.mesh, fixed, domain)
-    terms = _terms(blocks, options.weights)
+    terms = _terms(blocks, options.row_weights)
     start = warm_start(mesh, free, options.start)
     if start is None:  # the paper starts its own solver from the unmoved mesh
         start = _slide_blocks(mesh, blocks.stitches, free, terms) if options.solver == GAUSS_NEWTON else mesh.vertices

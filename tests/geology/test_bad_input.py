@@ -198,6 +198,7 @@ FIXED = {
 }
 SETTINGS = {
     "solver": ({"solver": "newton"}, "solver must be 'gauss-newton' or 'fixed-point', but is 'newton'"),
+    "weighting": ({"weighting": "eq. 14"}, "weighting must be 'norms' or 'rows', but is 'eq. 14'"),
     "no iterations": ({"max_iterations": 0}, "max_iterations must be a whole number of 1 or more, but is 0"),
     "fewer": ({"max_iterations": -3}, "max_iterations must be"),
     "half an iteration": ({"max_iterations": 2.5}, "max_iterations must be"),

@@ -321,6 +321,19 @@ def test_the_fixed_point_is_there_for_comparison():
     assert 0.1 < errors["fixed-point"] < 100
 
 
+def test_weights_of_norms_and_of_rows():
+    """A weight of a norm is the root of a weight of rows; the fixed point slides farther with the former."""
+    case, slips = sw.synthetic.planar_fault(), []
+    picks, start = case.interpretation, sw.Restoration(case.section, spacing=200)
+    roots = sw.Weights(slide=10**0.5, stitch=10**0.5)
+    for weights, weighting in ((sw.Weights(), "norms"), (roots, "rows"), (sw.Weights(), "rows"), (sw.Weights(), None)):
+        options = {"solver": "fixed-point", "weighting": weighting, "weights": weights, "max_iterations": 30}
+        stage = start.unfault(picks.faults, picks.horizons, fixed=case.fixed, **options).stages[0]
+        slips.append(np.hypot(*(stage.vertices - stage.mesh.vertices).T).mean())
+    assert slips[0] == slips[1] == slips[3]
+    assert slips[0] > 1.5 * slips[2]
+
+
 def test_a_solution_that_turns_triangles_over_is_refused():
     """The fixed point flips triangles where a block has to slide along a round fault."""
     case = sw.synthetic.listric_fault()

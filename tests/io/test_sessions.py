@@ -20,6 +20,7 @@ PLAN = sw.Plan(
     sw.Weights(stitch=7.5, edge=1 / 3),
     spacing=70.0,
     max_iterations=40,
+    weighting="rows",
 )
 LOOKS = {("fault", "F1"): {"colour": "#e69f00"}, ("horizon", "H2"): {"colour": "teal", "visible": False}}
 CROSSED = ((0.0, 0.0), (20.0, 20.0), (20.0, 0.0), (0.0, 20.0))

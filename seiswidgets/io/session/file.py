@@ -209,6 +209,7 @@ def _plan(entry: Entry) -> Plan:
         steps=entry.optional("steps", _steps, defaults.steps),
         weights=entry.optional("weights", _weights, defaults.weights),
         solver=entry.optional("solver", Entry.text, defaults.solver),
+        weighting=entry.optional("weighting", Entry.text, None),
         spacing=entry.optional("spacing", Entry.number, None),
         max_iterations=entry.optional("max_iterations", _count, None),
     )
