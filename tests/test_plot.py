@@ -4,11 +4,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 import seiswidgets as sw
 from seiswidgets.core.deformation import AREA_RATIO_COLOURS
 from seiswidgets.core.mesh import Mesh
+from seiswidgets.interaction.drawing import Drawing
 
 AMPLITUDE = np.random.default_rng(0).normal(size=(40, 60))
 DEPTH = sw.Section(AMPLITUDE, dx=25.0, dz=10.0, x0=1000.0, z0=200.0)
@@ -276,3 +278,22 @@ def test_a_stage_that_is_not_there_is_refused(restored):
         sw.plot.workflow(replace(restored, stages=()))
     with pytest.raises(sw.SettingError, match='"before" or "after", but is \'while\''):
         sw.plot.mesh(restored, when="while")
+
+
+def test_a_pick_has_the_colour_that_it_has_in_the_app():
+    case = sw.synthetic.faulted_fold()
+    picks = case.interpretation
+    app_colours = Drawing().with_interpretation(picks).colours
+    ax = sw.plot.section(case.section, picks)
+    lines = {to_hex(line.get_color()) for line in ax.lines}
+    assert lines == set(app_colours.values())
+    figure = sw.plot.workflow(case_restored(case), picks, colours={("fault", "F1"): "#123456"})
+    panels = [axes for axes in figure.axes if axes.lines]
+    assert len(panels) == 4
+    expected = {**app_colours, ("fault", "F1"): "#123456"}
+    for panel in panels:
+        assert {to_hex(line.get_color()) for line in panel.lines} == set(expected.values())
+
+
+def case_restored(case):
+    return sw.Plan(spacing=200.0).restore(case.section, case.interpretation, fixed=case.fixed)

@@ -144,6 +144,7 @@ class Restoration:
         walls = carried_boundaries(self.original, self.stages, others)
         notes = self._clipped(*named_faults.values(), *named_horizons.values())
         stage = unfault_stage(self.domain, lines, beds, held, solver_options, walls, ends=ends, notes=notes)
+        stage = replace(stage, weights=solver_options.weights, fixed=fixed)
         return replace(self, stages=(*self.stages, stage))
 
     def flatten(
@@ -175,6 +176,7 @@ class Restoration:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
         pieces = carried_horizon(self.original, self.stages, horizon)
         stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, notes=self._clipped(horizon))
+        stage = replace(stage, weights=solver_options.weights)
         return replace(self, stages=(*self.stages, stage))
 
     def _clipped(self, *picks: Fault | Horizon) -> tuple[Finding, ...]:

@@ -24,6 +24,7 @@ from seiswidgets.geology.motion import observe_motion
 from seiswidgets.geology.report import Observations, Report
 from seiswidgets.geology.segments import horizon_segments, join_pieces, split_at_faults
 from seiswidgets.geology.shared_stretches import follow, shared_stretches
+from seiswidgets.geology.weights import Weights
 
 SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
 PERCENTS = (1, 50, 99)
@@ -98,6 +99,9 @@ class Stage:
     mesh_setup : MeshSetup
     whole : Stage, optional
         The step that this is only a part of.
+    weights : Weights, optional
+    fixed : (x, z), optional
+        The point that was held, in the present-day section's units.
     """
 
     kind: str
@@ -109,6 +113,8 @@ class Stage:
     mesh_setup: MeshSetup
     boundaries: tuple[LineString, ...] = ()
     whole: "Stage | None" = None
+    weights: Weights | None = None
+    fixed: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         self.vertices.setflags(write=False)

@@ -10,14 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError, SettingError
+from seiswidgets.geology.pick_colours import COLOURS
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
 from seiswidgets.geology.section import Section
 
 LETTERS = {FAULT: "F", HORIZON: "H"}
-COLOURS = {  # distinguishable for the colour-blind, on grey and on red-white-blue
-    FAULT: ("#e69f00", "#f0e442", "#ff5fa2", "#c77cff", "#ffb000"),
-    HORIZON: ("#00c2a8", "#56b4e9", "#7ad151", "#0072b2", "#b8de29"),
-}
 
 Point = tuple[float, float]
 Points = tuple[Point, ...]
@@ -229,6 +226,11 @@ class Drawing:
         """Return True if no pick reaches beyond a section."""
         points = [point for pick in self.picks for piece in pick.pieces for point in piece]
         return not points or bool(section.contains(points).all())
+
+    @property
+    def colours(self) -> dict[tuple[str, str], str]:
+        """Colour of each pick, by its kind and name."""
+        return {(pick.kind, pick.name): pick.colour for pick in self.picks}
 
     @property
     def interpretation(self) -> Interpretation:

@@ -11,17 +11,18 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from seiswidgets.core.deformation import AREA_RATIO_COLOURS, area_ratio_histogram, colour_span, weighted_percentiles
+from seiswidgets.geology.pick_colours import PickColours
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.plot.frame import WIDTH, PlotFrame, Window, plot_frame
 from seiswidgets.plot.panels import (
     ACTIONS,
     amplitude_limit,
+    draw_pick_lines,
     draw_picks,
     draw_section,
     first_stages,
     panel_title,
-    restored_picks,
     select_stage,
 )
 from seiswidgets.signatures import strict_keywords
@@ -33,6 +34,7 @@ def deformation(
     interpretation: Interpretation | None = None,
     stage: int = -1,
     *,
+    colours: PickColours | None = None,
     span: float | None = None,
     exaggeration: float | None = None,
     window: Window | None = None,
@@ -43,9 +45,10 @@ def deformation(
     ----------
     restored : Restoration
     interpretation : Interpretation, optional
-        Its picks are drawn as black lines.
     stage : int
         Index of the stage; the last one if left out.
+    colours : dict, optional
+        Of the picks, as for ``section``.
     span : float, optional
         The colours run from 1 / span to span. If left out, it is chosen such that almost nothing lies beyond.
     exaggeration, window
@@ -61,7 +64,7 @@ def deformation(
     frame = plot_frame(restored.original, [shown.section], exaggeration, window)
     size = WIDTH, max(2.8, 0.66 * WIDTH * frame.height_over_width + 1.0)
     figure, (left, right) = plt.subplots(1, 2, figsize=size, width_ratios=(2.6, 1), layout="constrained")
-    _draw_deformation(left, right, shown, interpretation, frame, span)
+    _draw_deformation(left, right, shown, interpretation, frame, span, colours)
     frame.add_footnote_below(figure)
     return figure
 
@@ -72,6 +75,7 @@ def workflow(
     interpretation: Interpretation | None = None,
     stage: int = -1,
     *,
+    colours: PickColours | None = None,
     clip: float = 99.0,
     cmap: str = "gray",
     span: float | None = None,
@@ -103,8 +107,8 @@ def workflow(
     for ax, step in zip(panels[:-1], steps, strict=True):
         draw_section(ax, step, limit, cmap)
         frame.apply_to(ax, panel_title(step))
-        draw_picks(ax, step, interpretation, frame)
-    _draw_deformation(panels[-1], histogram, steps[index + 1], interpretation, frame, span)
+        draw_picks(ax, step, interpretation, frame, colours)
+    _draw_deformation(panels[-1], histogram, steps[index + 1], interpretation, frame, span, colours)
     for letter, ax in zip("abcdefghijklmnopqrstuvwxyz", panels, strict=False):
         ax.set_title(f"({letter}) {ax.get_title(loc='left')}", loc="left", fontsize="medium")
     _keep_outer_labels(panels)
@@ -141,6 +145,7 @@ def _draw_deformation(
     interpretation: Interpretation | None,
     frame: PlotFrame,
     span: float | None,
+    pick_colours: PickColours | None,
 ) -> None:
     """Draw the map of the last stage's area ratio, and the histogram on the colour bar of both."""
     stage = restored.stages[-1]
@@ -148,7 +153,8 @@ def _draw_deformation(
     span = colour_span(stage.area_ratio, stage.mesh.areas) if span is None else span
     bins, shares = area_ratio_histogram(stage.area_ratio, stage.mesh.areas, span=span)
     colours = ScalarMappable(LogNorm(1 / span, span), AREA_RATIO_COLOURS)
-    _draw_map(ax, restored, interpretation, colours)
+    _draw_map(ax, restored, colours)
+    draw_pick_lines(ax, restored, interpretation, pick_colours)
     frame.apply_to(ax, f"deformation by {ACTIONS[stage.kind]}")
     _draw_histogram(histogram, bins, shares, colours)
     _draw_colour_bar(histogram, colours, span)
@@ -156,15 +162,12 @@ def _draw_deformation(
     histogram.set_title(f"median {median}\n98% of the area from {low} to {high}", loc="left", fontsize=8.5)
 
 
-def _draw_map(ax: Axes, restored: Restoration, interpretation: Interpretation | None, colours: ScalarMappable) -> None:
+def _draw_map(ax: Axes, restored: Restoration, colours: ScalarMappable) -> None:
     """Draw each triangle after the last stage, in the colour of its area ratio."""
     stage = restored.stages[-1]
     x, z = restored.original.from_rock(stage.vertices).T
     look: dict[str, Any] = {"norm": colours.norm, "cmap": colours.cmap, "edgecolors": "face", "linewidth": 0.3}
     ax.tripcolor(x, z, stage.mesh.triangles, facecolors=stage.area_ratio, **look)
-    for _, lines in restored_picks(restored, interpretation):
-        for line in lines:
-            ax.plot(*line.T, color="black", linewidth=0.8)
 
 
 def _draw_histogram(ax: Axes, bins: np.ndarray, shares: np.ndarray, colours: ScalarMappable) -> None:

@@ -9,16 +9,17 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from seiswidgets.errors import SettingError
-from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.pick_colours import PickColours, pick_colours
+from seiswidgets.geology.picks import FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
 from seiswidgets.plot.frame import NO_DATA, PLAIN_TEXT, PlotFrame, Window, edges, plot_frame
 from seiswidgets.signatures import strict_keywords
 
-FAULT_COLOUR, HORIZON_COLOUR, MESH_COLOUR = "#d7191c", "#1565d8", "#e8a400"
+MESH_COLOUR = "#d81b60"
 ACTIONS = {"unfault": "unfaulting", "flatten": "flattening"}
-HALO = [withStroke(linewidth=3, foreground="white", alpha=0.75)]
+HALO = [withStroke(linewidth=3.2, foreground="0.15", alpha=0.75)]  # dark: most colours of picks are light
 
 
 @strict_keywords
@@ -27,18 +28,22 @@ def section(
     interpretation: Interpretation | None = None,
     ax: Axes | None = None,
     *,
+    colours: PickColours | None = None,
     clip: float = 99.0,
     cmap: str = "gray",
     exaggeration: float | None = None,
     window: Window | None = None,
 ) -> Axes:
-    """Draw a section, z down, with its faults in red and its horizons in blue.
+    """Draw a section, z down, with its picks in the colours that they have in the app.
 
     Parameters
     ----------
     section : Section
     interpretation : Interpretation, optional
     ax : Axes, optional
+    colours : dict, optional
+        ``{("fault", "F1"): "#e69f00", ...}``; `RestorationApp.colours` has those chosen there. Without a colour of its
+        own, a pick gets the one that the app would give it.
     clip : float
         Percentile of the absolute amplitudes at which the colours end, symmetrically about 0.
     cmap : str
@@ -52,7 +57,14 @@ def section(
         If the clip, the exaggeration or the window is invalid.
     """
     return restoration(
-        Restoration(section), interpretation, ax, clip=clip, cmap=cmap, exaggeration=exaggeration, window=window
+        Restoration(section),
+        interpretation,
+        ax,
+        colours=colours,
+        clip=clip,
+        cmap=cmap,
+        exaggeration=exaggeration,
+        window=window,
     )
 
 
@@ -62,6 +74,7 @@ def restoration(
     interpretation: Interpretation | None = None,
     ax: Axes | None = None,
     *,
+    colours: PickColours | None = None,
     clip: float = 99.0,
     cmap: str = "gray",
     exaggeration: float | None = None,
@@ -75,7 +88,7 @@ def restoration(
     ax = ax or frame.new_axes()
     draw_section(ax, restored, amplitude_limit(restored.original, clip), cmap)
     frame.apply_to(ax, panel_title(restored))
-    draw_picks(ax, restored, interpretation, frame)
+    draw_picks(ax, restored, interpretation, frame, colours)
     frame.add_footnote(ax)
     return ax
 
@@ -147,12 +160,15 @@ def draw_section(ax: Axes, restored: Restoration, limit: float, cmap: str) -> No
     ax.imshow(restored.section.amplitude, cmap=colours, vmin=-limit, vmax=limit, extent=extent)
 
 
-def draw_picks(ax: Axes, restored: Restoration, interpretation: Interpretation | None, frame: PlotFrame) -> None:
+def draw_picks(
+    ax: Axes,
+    restored: Restoration,
+    interpretation: Interpretation | None,
+    frame: PlotFrame,
+    colours: PickColours | None = None,
+) -> None:
     """Draw the original's picks after restoration, each with its name."""
-    picks = [(pick, lines, _colour(pick)) for pick, lines in restored_picks(restored, interpretation)]
-    for _, lines, colour in picks:
-        for line in lines:
-            ax.plot(*line.T, color=colour, linewidth=1.6, solid_capstyle="round", path_effects=HALO)
+    picks = draw_pick_lines(ax, restored, interpretation, colours)
     for pick, lines, colour in picks:
         points = frame.visible(np.concatenate([np.empty((0, 2)), *lines]))
         if len(points):
@@ -161,8 +177,19 @@ def draw_picks(ax: Axes, restored: Restoration, interpretation: Interpretation |
             ax.annotate(pick.name, textcoords="offset points", **placement, **look, **PLAIN_TEXT)
 
 
-def _colour(pick: Fault | Horizon) -> str:
-    return FAULT_COLOUR if isinstance(pick, Fault) else HORIZON_COLOUR
+def draw_pick_lines(
+    ax: Axes, restored: Restoration, interpretation: Interpretation | None, colours: PickColours | None
+) -> list[tuple[Fault | Horizon, list[np.ndarray], str]]:
+    """Draw the original's picks after restoration, and return each with its lines and its colour."""
+    by_name = pick_colours(interpretation or Interpretation(), colours)
+    picks = [
+        (pick, lines, by_name[FAULT if isinstance(pick, Fault) else HORIZON, pick.name])
+        for pick, lines in restored_picks(restored, interpretation)
+    ]
+    for _, lines, colour in picks:
+        for line in lines:
+            ax.plot(*line.T, color=colour, linewidth=1.6, solid_capstyle="round", path_effects=HALO)
+    return picks
 
 
 def restored_picks(

@@ -172,7 +172,14 @@ class RestorationApp(WithParts, VBox):
     @cached_property
     def files(self) -> FilePanel:
         """Page of the tab File, made when it is first opened."""
-        return FilePanel(self.workspace, self.session_bar)
+        files = FilePanel(self.workspace, self.session_bar)
+        dlink((self.panes, "span"), (files.results, "span"))
+        return files
+
+    @property
+    def colours(self) -> dict[tuple[str, str], str]:
+        """Colour of each pick, by its kind and name, for figures of `plot`."""
+        return self.workspace.drawing.colours
 
     def restore(self) -> None:
         """Restore on the full mesh now, in the background; the verdict, or an error, appears above the panes."""

@@ -533,6 +533,7 @@ def test_trouble_with_picks_is_said_beside(app, tmp_path):
 
 
 def test_all_results_are_written_and_open_again(restored, tmp_path):
+    restored.picker.editor.recolour("fault", "F1", "#123456")
     results = restored.files.results
     results.folder.value = str(tmp_path / "out")
     for box in results.kinds.values():
@@ -550,6 +551,7 @@ def test_all_results_are_written_and_open_again(restored, tmp_path):
     assert len(meshio.read(written["mesh.vtu"]).points) == len(restored.restoration.stages[-1].vertices)
     assert len(json.loads(written["report.json"].read_text())["stages"]) == 2
     assert "<!DOCTYPE html>" in written["report.html"].read_text()
+    assert "stroke: #123456" in written["figure.svg"].read_text()  # the colour that F1 has in the app
     with xarray.open_dataset(written["displacement.nc"]) as fields:
         assert "displacement_x" in fields
     assert plt.get_fignums() == []

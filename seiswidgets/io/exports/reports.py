@@ -1,26 +1,55 @@
 """Reports of a restoration, as JSON for programs and as a web page for people."""
 
 import json
+from base64 import b64encode
 from collections.abc import Mapping
 from dataclasses import asdict
+from datetime import datetime
 from html import escape
+from io import BytesIO
 from math import isfinite
 from os import PathLike
 from typing import Any
 
+from seiswidgets import __version__
+from seiswidgets.geology.pick_colours import PickColours
+from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.section import Section
+from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io.files import output_path, write_file
 from seiswidgets.signatures import strict_keywords
 
 SUFFIXES = (".json", ".html")
-STYLE = "body { font-family: sans-serif; max-width: 60em; margin: 2em auto } th { padding-right: 1em }"
+STYLE = (
+    "body { font-family: sans-serif; margin: 2em auto; max-width: 60em } th { padding-right: 1em } img { width: 100% }"
+)
+DPI = 130  # of the figure in a page
 SECTION_FIELDS = ("name", "credit", "shape", "extent", "x_unit", "z_unit", "velocity")
 
 
 @strict_keywords
-def save_report(restored: Restoration, path: str | PathLike) -> None:
-    """Write the reports of all stages, as JSON (.json) or as a web page that needs no network (.html).
+def save_report(
+    restored: Restoration,
+    path: str | PathLike,
+    interpretation: Interpretation | None = None,
+    *,
+    colours: PickColours | None = None,
+    span: float | None = None,
+) -> None:
+    """Write the reports of all stages, as JSON (.json) or as a web page with a figure that needs no network (.html).
+
+    Both hold the weights, the held point, the date and the version.
+
+    Parameters
+    ----------
+    restored : Restoration
+    path : path
+    interpretation : Interpretation, optional
+        Picks to draw in the figure.
+    colours, span
+        As for `plot.workflow`.
 
     Raises
     ------
@@ -34,7 +63,7 @@ def save_report(restored: Restoration, path: str | PathLike) -> None:
     if path.suffix.lower() == ".json":
         text = json.dumps(report_as_dict(restored), indent=2, allow_nan=False, ensure_ascii=False)
     else:
-        text = report_as_html(restored)
+        text = report_as_html(restored, interpretation, colours, span)
     write_file(path, text.encode())
 
 
@@ -44,8 +73,17 @@ def report_as_dict(restored: Restoration) -> dict[str, Any]:
     The keys are the names of the fields of ``Report``, and "verdict"; numbers that are not finite become None.
     """
     section = {name: getattr(restored.original, name) for name in SECTION_FIELDS}
-    stages = [{"verdict": stage.report.verdict, **asdict(stage.report)} for stage in restored.stages]
-    report: dict[str, Any] = _plain({"section": section, "verdict": restored.verdict, "stages": stages})
+    stages = [
+        {
+            "verdict": stage.report.verdict,
+            **asdict(stage.report),
+            "weights": asdict(stage.weights) if stage.weights else None,
+            "fixed": stage.fixed,
+        }
+        for stage in restored.stages
+    ]
+    origin = {"seiswidgets": __version__, "written": datetime.now().astimezone().isoformat(timespec="seconds")}
+    report: dict[str, Any] = _plain({**origin, "section": section, "verdict": restored.verdict, "stages": stages})
     return report
 
 
@@ -59,23 +97,59 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def report_as_html(restored: Restoration) -> str:
-    """A web page with a table for each stage; names of picks and files are escaped."""
+def report_as_html(
+    restored: Restoration,
+    interpretation: Interpretation | None = None,
+    colours: PickColours | None = None,
+    span: float | None = None,
+) -> str:
+    """A web page with a figure, and a table for each stage; names of picks and files are escaped."""
     section = restored.original
     title = escape(section.name or "section")
-    reports = (stage.report._repr_html_() for stage in restored.stages)
-    tables = [f"<h2>Stage {count}</h2>\n{report}" for count, report in enumerate(reports, 1)]
+    tables = [
+        f"<h2>Stage {count}</h2>\n{stage.report._repr_html_()}\n<p>{escape(_choices(stage, section))}</p>"
+        for count, stage in enumerate(restored.stages, 1)
+    ]
+    figure = [_figure(restored, interpretation, colours, span)] if restored.stages else []
     return "\n".join(
         [
             '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">',
             f"<title>Restoration of {title}</title>",
             f"<style>{STYLE}</style>",
             f"<h1>Restoration of {title}</h1>\n<p>{escape(restored.verdict)}</p>",
+            *figure,
             f"<p>{escape(repr(section))}</p>",
             *tables,
-            "<p>Restored with seiswidgets: an interpretation, not a measurement.</p>\n</html>\n",
+            f"<p>Restored with seiswidgets {__version__} and written on {datetime.now():%d %B %Y at %H:%M}: an "
+            "interpretation, not a measurement.</p>\n</html>\n",
         ]
     )
+
+
+def _choices(stage: Stage, section: Section) -> str:
+    """Weights and held point of a stage, in a sentence each."""
+    weights = asdict(stage.weights) if stage.weights else {}
+    listed = ", ".join(f"{name.replace('_', ' ')} {value:g}" for name, value in weights.items())
+    texts = [f"Weights: {listed}."] if listed else []
+    if stage.kind == "unfault":
+        point = stage.fixed and f"block at x {stage.fixed[0]:g} {section.x_unit}, z {stage.fixed[1]:g} {section.z_unit}"
+        texts.append(f"Hold: {point} held." if point else "Hold: no block held.")
+    return " ".join(texts)
+
+
+def _figure(
+    restored: Restoration, interpretation: Interpretation | None, colours: PickColours | None, span: float | None
+) -> str:
+    """The figure of the whole restoration, as an image in the page."""
+    from matplotlib.figure import Figure  # slow to import, and only a page needs it
+
+    from seiswidgets import plot
+
+    drawing = plot.workflow(restored, interpretation, colours=colours, span=span, figure=Figure())
+    file = BytesIO()
+    drawing.savefig(file, format="png", dpi=DPI)
+    steps = escape(stages_as_line(restored))
+    return f'<img src="data:image/png;base64,{b64encode(file.getvalue()).decode()}" alt="The restoration: {steps}">'
 
 
 def stages_as_line(restored: Restoration) -> str:

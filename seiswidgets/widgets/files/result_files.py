@@ -7,10 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from ipywidgets import Button, Checkbox, GridBox, HBox, Layout, Text, VBox
+from traitlets import Float
 
 from seiswidgets import plot
+from seiswidgets.core.deformation import USUAL_SPAN
 from seiswidgets.errors import DataError, Keyword, SeiswidgetsError, SettingError
 from seiswidgets.errors import Text as Message
+from seiswidgets.geology.pick_colours import PickColours
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.io.exports.meshes import save_mesh
@@ -37,6 +40,8 @@ class Result:
     restoration: Restoration
     interpretation: Interpretation
     source: SectionSource | None
+    colours: PickColours
+    span: float
 
 
 Writer = Callable[[Result, Path], None]
@@ -55,6 +60,8 @@ class ResultFiles(VBox):
         Folder of the files, and beginning of their names.
     kinds : dict of str to Checkbox
         Results to export, by the ends of the files' names.
+    span : float
+        The colours of the area ratio in figures run from 1 / span to span.
     written : tuple of Path
         Files written by the last export.
     export_button : Button
@@ -63,6 +70,8 @@ class ResultFiles(VBox):
     notice : Question
         Results and errors.
     """
+
+    span = Float(USUAL_SPAN)
 
     def __init__(self, workspace: Workspace):
         self._workspace, self.notice = workspace, Question()
@@ -106,7 +115,8 @@ class ResultFiles(VBox):
             self.notice.ask(f"These files exist already: {', '.join(existing)}.", {REPLACE: again, LEAVE: lambda: None})
             return
         self.written = ()
-        result = Result(self._workspace.restoration, self._workspace.interpretation, self._workspace.source)
+        shown = self._workspace
+        result = Result(shown.restoration, shown.interpretation, shown.source, shown.drawing.colours, self.span)
         self.job.begin(partial(self._write, result, paths))
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -162,9 +172,14 @@ def _write_figure(result: Result, path: Path) -> None:
     """Write a figure made without pyplot, whose figures belong to the user and to another thread."""
     from matplotlib.figure import Figure  # slow to import: the app appears sooner without it
 
-    figure = plot.workflow(result.restoration, result.interpretation, figure=Figure())
+    look = {"colours": result.colours, "span": result.span}
+    figure = plot.workflow(result.restoration, result.interpretation, **look, figure=Figure())
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=DPI)
+
+
+def _write_report(result: Result, path: Path) -> None:
+    save_report(result.restoration, path, result.interpretation, colours=result.colours, span=result.span)
 
 
 def _write_displacement(result: Result, path: Path) -> None:
@@ -192,8 +207,8 @@ WRITERS: dict[str, tuple[str, Writer]] = {
     "figure.png": ("figure (.png, 300 dpi)", _write_figure),
     "figure.svg": ("figure (.svg)", _write_figure),
     "mesh.vtu": ("mesh for ParaView (.vtu)", _of_restoration(save_mesh)),
-    "report.json": ("report (.json)", _of_restoration(save_report)),
-    "report.html": ("report (.html)", _of_restoration(save_report)),
+    "report.json": ("report (.json)", _write_report),
+    "report.html": ("report (.html)", _write_report),
     "displacement.nc": ("displacement (.nc)", _write_displacement),
 }
 DEFAULTS = ("restored.npz", "figure.png", "report.html")
