@@ -12,7 +12,7 @@ from shapely import LineString, Point
 
 from seiswidgets.errors import PickError
 from seiswidgets.geology.picks import Fault, Horizon
-from seiswidgets.geology.segments import EXTENSION, End, HorizonSegment, horizon_segments, nearest_fault_ahead
+from seiswidgets.geology.segments import End, HorizonSegment, horizon_segments, nearest_fault_ahead
 
 WALLS = {1: "hanging wall", -1: "footwall"}
 
@@ -119,15 +119,15 @@ class PickNetwork:
         Text for a position in errors.
     position : callable(point) -> (x, z)
         The position in the section's units, for the ``where`` field of errors.
-    unit : str
-        Unit of lengths in errors, with a leading space.
+    length : callable(float) -> str
+        Text for a length in errors.
     """
 
     faults: dict[str, LineString]
     horizons: dict[str, list[HorizonSegment]]
     where: Callable[[Position], str]
     position: Callable[[Position], Position] = _unchanged
-    unit: str = " m"
+    length: Callable[[float], str] = "{:.4g}".format
 
     def cutoffs(self) -> list[CutOffPair]:
         """All pairs of cut-offs of the horizons at the faults.
@@ -204,9 +204,8 @@ class PickNetwork:
                 end = _end_ahead(segment, which, line)
                 if end and end.side == side:
                     return (
-                        f": piece {segment.piece} ends {end.gap:.4g}{self.unit} away from the fault, and can be "
-                        f"extended by at most a fifth of its length, {EXTENSION * segment.line.length:.4g}{self.unit}; "
-                        "draw it closer"
+                        f": piece {segment.piece} ends {self.length(end.gap)} away from the fault, too far to be "
+                        "extended to it; draw it closer"
                     )
         return None
 
@@ -220,7 +219,7 @@ class PickNetwork:
             return "give a horizon with a piece on either side"
         distance, horizon, piece = min(distances)
         return (
-            f"the nearest is piece {piece} of horizon {horizon!r}, {distance:.4g}{self.unit} away: "
+            f"the nearest is piece {piece} of horizon {horizon!r}, {self.length(distance)} away: "
             "draw a piece on either side"
         )
 
@@ -229,7 +228,7 @@ def _end_ahead(segment: HorizonSegment, which: int, fault: LineString) -> End | 
     """The end that a free end of a segment would have at a fault, however far away."""
     if segment.ends[which]:
         return None
-    return nearest_fault_ahead(segment.line, which, [fault], 1e3 * fault.length)
+    return nearest_fault_ahead(segment.line, which, [fault], None, 1e3 * fault.length)
 
 
 def separation(fault: ArrayLike, hanging_wall: Position, footwall: Position) -> tuple[float, float]:
@@ -259,7 +258,7 @@ def cutoffs(fault: Fault, horizon: Horizon) -> tuple[CutOff, ...]:
     """
     line = LineString(fault.points)
     segments = horizon_segments([LineString(piece) for piece in horizon.pieces], [line])
-    network = PickNetwork({fault.name: line}, {horizon.name: segments}, "x={0[0]:.6g}, z={0[1]:.6g}".format, unit="")
+    network = PickNetwork({fault.name: line}, {horizon.name: segments}, "x={0[0]:.6g}, z={0[1]:.6g}".format)
     found = []
     for pair in network.cutoffs():
         one, other = (segments[index].end_point(which) for index, which in (pair.hanging_wall, pair.footwall))

@@ -95,7 +95,7 @@ def flatten_stage(
 
 
 def _mesh_bed(domain: RestorationDomain, name: str, pieces: Sequence[LineString], fingerprint: tuple) -> Bed:
-    lines = _tidy(join_pieces(pieces, domain.spacing), domain, name)
+    lines = _tidy(join_pieces(pieces, domain.cell), domain, name)
     mesh = domain.mesh({(HORIZON, name): lines})
     return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), fingerprint)
 

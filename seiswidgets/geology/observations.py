@@ -10,6 +10,7 @@ from seiswidgets.core.solver import Solution
 from seiswidgets.core.terms import Level
 from seiswidgets.geology.cutoffs import CutOffPair, separation
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.extensions import extension_findings
 from seiswidgets.geology.fault_ends import fault_end_findings
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.growth import growth_findings
@@ -34,7 +35,8 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
     faults, slips = blocks.network.faults, blocks.slips()
     ends = fault_end_findings(faults, slips, domain, blocks.ends)
     growth = growth_findings(faults, slips, domain)
-    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *growth, *ends))
+    extensions = extension_findings(blocks.network.horizons, list(faults), domain)
+    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *growth, *ends, *extensions))
 
 
 def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, domain: RestorationDomain) -> Observations:

@@ -1,7 +1,8 @@
 """Segments of horizons, each brought to the faults that it ends at.
 
-Pieces are seldom drawn exactly to a fault: one that ends short is extended along its last stretch, by at most a fifth
-of its length; one that overshoots is trimmed.
+Pieces are seldom drawn exactly to a fault: one that ends short is extended, one that overshoots is trimmed. An extension
+takes the median direction of the last ten traces, so that a steep last segment does not decide where it goes. It is 20
+traces long at most, less where it is steep, and no longer than the piece itself, except over three traces and samples.
 """
 
 from collections.abc import Container, Sequence
@@ -15,8 +16,11 @@ from shapely import LineString, Point
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import substring
 
-EXTENSION = 0.2  # of a piece's length: how far it is extended to a fault, and how short an overshoot is
-JOINED = 0.5  # of the mesh spacing: ends of two pieces that lie closer become one point
+MOST, LEAST = 20.0, 3.0  # traces by which a piece is extended; traces and samples by which even a short one is
+STEEP = 2.0  # times as much counts what an extension falls or rises
+BASELINE = 10.0  # traces at the end of a piece, whose median direction an extension takes
+EXTENSION = 0.2  # of a piece's length, where the size of traces is not known
+JOINED = 3.0  # traces and samples: ends of two pieces that lie closer become one point
 
 
 @dataclass(frozen=True)
@@ -66,13 +70,24 @@ class HorizonSegment:
         return end.point if end else self.line.coords[which]
 
 
-def horizon_segments(pieces: Sequence[LineString], faults: Sequence[LineString]) -> list[HorizonSegment]:
+def horizon_segments(
+    pieces: Sequence[LineString], faults: Sequence[LineString], cell: np.ndarray | None = None
+) -> list[HorizonSegment]:
     """The pieces of a horizon, split where they cross faults and extended to the faults they end short of.
 
     A short end beyond a fault is left out if another piece lies there: then it is an overshoot.
+
+    Parameters
+    ----------
+    pieces, faults : list of LineString
+    cell : array, shape (2,), optional
+        Distance between two traces and between two samples, in the unit of the lines. Without it, a piece is extended
+        by at most a fifth of its length.
     """
-    split = [segment for index, piece in enumerate(pieces, 1) for segment in split_at_faults(piece, faults, index)]
-    extended = [_extend(segment, faults) for segment in split]
+    split = [
+        segment for index, piece in enumerate(pieces, 1) for segment in split_at_faults(piece, faults, index, cell)
+    ]
+    extended = [_extend(segment, faults, cell) for segment in split]
     claimed = {(end.fault, end.side) for segment in extended if not segment.short for end in segment.ends if end}
 
     def is_overshoot(segment: HorizonSegment) -> bool:
@@ -81,7 +96,9 @@ def horizon_segments(pieces: Sequence[LineString], faults: Sequence[LineString])
     return [segment for segment in extended if not is_overshoot(segment)]
 
 
-def split_at_faults(line: LineString, faults: Sequence[LineString], piece: int = 1) -> list[HorizonSegment]:
+def split_at_faults(
+    line: LineString, faults: Sequence[LineString], piece: int = 1, cell: np.ndarray | None = None
+) -> list[HorizonSegment]:
     """Cut a line where it crosses faults."""
     crossings = sorted(
         (line.project(point), fault)
@@ -105,8 +122,15 @@ def split_at_faults(line: LineString, faults: Sequence[LineString], piece: int =
         part = substring(line, start, stop)
         ends = _end_at(part, 0, first, faults), _end_at(part, -1, last, faults)
         outer = (first is None) != (last is None)
-        segments.append(HorizonSegment(part, ends, piece, outer and stop - start < EXTENSION * length))
+        most = EXTENSION * length if cell is None else min(_most(np.ptp(part.coords, axis=0), cell), length / 2)
+        segments.append(HorizonSegment(part, ends, piece, outer and stop - start < most))
     return segments
+
+
+def _most(arm: np.ndarray, cell: np.ndarray) -> float:
+    """Length of an extension in the direction of an arm, or of an overshoot, at most."""
+    across, along = np.abs(arm) / np.hypot(*arm)
+    return float(MOST * cell[0] / max(across, STEEP * along))
 
 
 def _end_at(line: LineString, which: int, fault: int | None, faults: Sequence[LineString]) -> End | None:
@@ -116,25 +140,40 @@ def _end_at(line: LineString, which: int, fault: int | None, faults: Sequence[Li
     return _end(line, which, fault, faults[fault], shapely.get_coordinates(line)[which])
 
 
-def _extend(segment: HorizonSegment, faults: Sequence[LineString]) -> HorizonSegment:
+def _extend(segment: HorizonSegment, faults: Sequence[LineString], cell: np.ndarray | None) -> HorizonSegment:
     """Extend the free ends of a segment to the first fault in reach."""
     if not faults:
         return segment
     points = shapely.get_coordinates(segment.line)
     ends: list[End | None] = []
     for which in (0, -1):
-        end = segment.ends[which] or nearest_fault_ahead(segment.line, which, faults, EXTENSION * segment.line.length)
+        end = segment.ends[which] or nearest_fault_ahead(segment.line, which, faults, cell)
         if end and end.gap > 0:
             points = np.insert(points, 0 if which == 0 else len(points), end.point, axis=0)
         elif end:
             points[which] = end.point
         ends.append(end)
-    return replace(segment, line=LineString(points), ends=(ends[0], ends[1]))
+    bridges = None not in ends and cell is not None and segment.line.length > LEAST * float(np.max(cell))
+    return replace(segment, line=LineString(points), ends=(ends[0], ends[1]), short=segment.short and not bridges)
 
 
-def nearest_fault_ahead(line: LineString, which: int, faults: Sequence[LineString], reach: float) -> End | None:
-    """The End at the first fault that a line meets when this end of it is extended by ``reach``, or None."""
-    tip, direction = _heading(line, which)
+def _reach(line: LineString, direction: np.ndarray, cell: np.ndarray | None) -> float:
+    """Length by which a line may be extended in a direction."""
+    if cell is None:
+        return EXTENSION * line.length
+    least = LEAST / float(np.hypot(*(direction / cell)))
+    return max(least, min(_most(direction, cell), line.length))
+
+
+def nearest_fault_ahead(
+    line: LineString, which: int, faults: Sequence[LineString], cell: np.ndarray | None, reach: float | None = None
+) -> End | None:
+    """The End at the first fault that a line meets when this end of it is extended, or None.
+
+    The extension has the length ``reach``, or the greatest one allowed.
+    """
+    tip, direction = _heading(line, which, cell)
+    reach = _reach(line, direction, cell) if reach is None else reach
     touch = 1e-6 * line.length
     ray = LineString([tip, tip + (reach + touch) * direction])
     hits = [
@@ -160,12 +199,16 @@ def _touching_point(fault: LineString, tip: np.ndarray, touch: float) -> list[Po
     return [nearest] if nearest.distance(Point(tip)) <= touch else []
 
 
-def _heading(line: LineString, which: int) -> tuple[np.ndarray, np.ndarray]:
-    """An end of a line and the unit vector in which it continues there, from the last tenth of its length."""
-    back = line.interpolate(0.1 if which == 0 else 0.9, normalized=True).coords[0]
-    tip = shapely.get_coordinates(line)[which]
-    arm = tip - back
-    return tip, arm / np.hypot(*arm)
+def _heading(line: LineString, which: int, cell: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+    """An end of a line and the unit vector in which it continues there: the median of its last stretch."""
+    baseline = 0.1 * line.length if cell is None else min(BASELINE * float(cell[0]), line.length)
+    stretch = substring(line, *((baseline, 0.0) if which == 0 else (line.length - baseline, line.length)))
+    points = shapely.get_coordinates(stretch)
+    arms, whole = np.diff(points, axis=0), points[-1] - points[0]
+    order = np.argsort(np.arctan2(whole[0] * arms[:, 1] - whole[1] * arms[:, 0], arms @ whole))
+    shares = np.cumsum(np.hypot(*arms[order].T)) / stretch.length
+    median = arms[order[np.searchsorted(shares, 0.5)]]
+    return shapely.get_coordinates(line)[which], median / np.hypot(*median)
 
 
 def _end(line: LineString, which: int, index: int, fault: LineString, point: ArrayLike, gap: float = 0.0) -> End:
@@ -196,29 +239,29 @@ def _common_points(geometry: BaseGeometry) -> list[Point]:
 
 
 def join_pieces(
-    pieces: Sequence[LineString], spacing: float, apart: Container[tuple[int, int]] = ()
+    pieces: Sequence[LineString], cell: np.ndarray, apart: Container[tuple[int, int]] = ()
 ) -> list[LineString]:
     """Join pieces of a horizon whose ends nearly meet, as across a restored fault.
 
     Parameters
     ----------
     pieces : list of LineString
-    spacing : float
-        Mesh spacing.
+    cell : array, shape (2,)
+        Distance between two traces and between two samples.
     apart : set of (index, end)
         Ends (0 or -1) of pieces that stay as they are.
     """
     points = [shapely.get_coordinates(piece).copy() for piece in pieces]
     ends = [(piece, end) for piece in range(len(points)) for end in (0, -1) if (piece, end) not in apart]
     pairs = sorted(
-        (float(np.hypot(*(points[one][a] - points[other][b]))), (one, a), (other, b))
+        (float(np.hypot(*((points[one][a] - points[other][b]) / cell))), (one, a), (other, b))
         for index, (one, a) in enumerate(ends)
         for other, b in ends[:index]
         if one != other
     )
     joined: set[tuple[int, int]] = set()
     for distance, first, second in pairs:
-        if distance < JOINED * spacing and not {first, second} & joined:
+        if distance < JOINED and not {first, second} & joined:
             middle = (points[first[0]][first[1]] + points[second[0]][second[1]]) / 2
             points[first[0]][first[1]] = points[second[0]][second[1]] = middle
             joined |= {first, second}

@@ -254,7 +254,7 @@ class Stage:
 
     def carried_horizon(self, pieces: Sequence[LineString]) -> list[LineString]:
         """The pieces of a horizon after the step, joined where they now meet across its faults."""
-        segments = horizon_segments(pieces, (*self.faults, *self.boundaries))
+        segments = horizon_segments(pieces, (*self.faults, *self.boundaries), self.domain.cell)
         carried = [(line, segment.ends) for segment in segments if (line := self._carry_line(segment.line, 0.0))]
         at_boundary = {
             (index, which)
@@ -262,7 +262,7 @@ class Stage:
             for which, end in zip((0, -1), ends, strict=True)
             if end and end.fault >= len(self.faults)
         }
-        return join_pieces([line for line, _ in carried], self.spacing, at_boundary)
+        return join_pieces([line for line, _ in carried], self.domain.cell, at_boundary)
 
     def carried_fault(self, line: LineString) -> list[LineString]:
         """A fault after the step, in order, split where another fault crosses it.

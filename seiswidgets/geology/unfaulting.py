@@ -198,8 +198,8 @@ def _match(
     domain: RestorationDomain,
 ) -> PickNetwork:
     faults = [*drawn.values(), *boundaries]
-    segments = {name: horizon_segments(pieces, faults) for name, pieces in horizons.items()}
-    return PickNetwork(drawn, segments, domain.where, domain.position)
+    segments = {name: horizon_segments(pieces, faults, domain.cell) for name, pieces in horizons.items()}
+    return PickNetwork(drawn, segments, domain.where, domain.position, domain.length)
 
 
 def _meshed_line(line: LineString, cutoffs: Sequence[tuple[float, float]], domain: RestorationDomain) -> LineString:

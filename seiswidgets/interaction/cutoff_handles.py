@@ -134,12 +134,14 @@ def _segments(drawing: Drawing, section: Section, pick: Pick) -> list[HorizonSeg
     """Segments into which the faults split a horizon, in metres of rock."""
     pieces = tuple(pick.pieces[piece] for piece in drawing.valid_pieces(pick))
     faults = tuple(fault.pieces[0] for fault in drawing.picks if fault.kind == FAULT and drawing.valid_pieces(fault))
-    return _cached_segments(pieces, faults, tuple(section.metres.tolist()))
+    cell = section.metres * (section.dx, section.dz)
+    return _cached_segments(pieces, faults, tuple(section.metres.tolist()), tuple(cell.tolist()))
 
 
 @lru_cache(maxsize=64)  # while one horizon is dragged, the others stay as they are
-def _cached_segments(pieces: Points, faults: Points, metres: Point) -> list[HorizonSegment]:
-    return horizon_segments(*([LineString(np.array(line) * metres) for line in lines] for lines in (pieces, faults)))
+def _cached_segments(pieces: Points, faults: Points, metres: Point, cell: Point) -> list[HorizonSegment]:
+    in_rock = ([LineString(np.array(line) * metres) for line in lines] for lines in (pieces, faults))
+    return horizon_segments(*in_rock, np.array(cell))
 
 
 def _nearest(line: LineString, point: np.ndarray) -> Point:

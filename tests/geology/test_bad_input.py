@@ -169,12 +169,12 @@ UNFAULTED = {
     ),
     "the other side": ((FAULT, horizon(RIGHT)), "in its hanging wall near x=800 m, z=500 m, but not in its footwall"),
     "too far": (
-        (FAULT, horizon(LEFT, [(1100, 500), (1500, 500)])),
-        "fault 'F1'.*piece 2 ends 300 m away from the fault, .* at most a fifth of its length, 80 m; draw it closer",
+        (FAULT, horizon(LEFT, [(1400, 500), (1500, 500)])),
+        "fault 'F1'.*piece 2 ends 600 m away from the fault, too far to be extended to it; draw it closer",
     ),
     "both too far": (
-        (FAULT, horizon([(0, 400), (300, 400)], [(1200, 500), (1500, 500)])),
-        "no horizon ends at fault 'F1' on both sides.*nearest is piece 2 of horizon 'H2', 392.2 m away",
+        (FAULT, horizon([(0, 400), (270, 400)], [(1310, 500), (1500, 500)])),
+        "no horizon ends at fault 'F1' on both sides.*nearest is piece 1 of horizon 'H2', 500 m away",
     ),
     "two on one side": (
         (FAULT, horizon(LEFT, [(0, 600), (820, 600)], RIGHT)),
@@ -240,9 +240,9 @@ BAD_DRAWINGS = {  # picks to unfault, the pick that the error is about, and the 
     "short": ((fault((700, 300), (750, 350)), HORIZON), "F2", (700, 300)),
     "a spike": ((fault((700, 0), (800, 500), (710, 10)), HORIZON), "F2", (800, 500)),
     "no horizon": (([FAULT], []), "F1", None),
-    "out of reach": ((FAULT, horizon([(0, 400), (300, 400)], [(1200, 500), (1500, 500)])), "F1", None),
+    "out of reach": ((FAULT, horizon([(0, 400), (270, 400)], [(1310, 500), (1500, 500)])), "F1", None),
     "one side": ((FAULT, horizon(LEFT)), "H2", (780, 400)),
-    "too far": ((FAULT, horizon(LEFT, [(1100, 500), (1500, 500)])), "H2", (780, 400)),
+    "too far": ((FAULT, horizon(LEFT, [(1400, 500), (1500, 500)])), "H2", (780, 400)),
     "two on one side": ((FAULT, horizon(LEFT, [(0, 600), (820, 600)], RIGHT)), "H2", (820, 600)),
     "no block": ((BLIND, BENT, (100, 100)), None, (100, 100)),
 }
@@ -276,7 +276,7 @@ def test_a_line_that_cannot_be_used_is_named_in_the_error():
     [
         (lambda: sw.Section(AMPLITUDE, dx=1, dz=1, z_unit="ms"), "velocity"),
         (lambda: sw.Restoration(SECTION, spacing=0.5).flatten(HORIZON), "spacing"),
-        (lambda: sw.Restoration(SECTION, spacing=400).flatten(HORIZON), "spacing"),
+        (lambda: sw.Restoration(SECTION, spacing=400).flatten(sw.Horizon([(0, 400), (1500, 400)])), "spacing"),
         (lambda: sw.Restoration(SECTION, spacing=SPACING).unfault(fault((700, 300), (750, 350)), HORIZON), "spacing"),
         (lambda: sw.Restoration(SECTION).unfault(BLIND, BENT, fixed=(100, 100)), "fixed"),
     ],
