@@ -1,8 +1,9 @@
 """Segments of horizons, each brought to the faults that it ends at.
 
-Pieces are seldom drawn exactly to a fault: one that ends short is extended, one that overshoots is trimmed. An extension
-takes the median direction of the last ten traces, so that a steep last segment does not decide where it goes. It is 20
-traces long at most, less where it is steep, and no longer than the piece itself, except over three traces and samples.
+Pieces are seldom drawn exactly to a fault: one that ends short is extended, one that overshoots is trimmed. An
+extension takes the median direction of the last ten traces, so that a steep last segment does not decide where it goes.
+It is 20 traces long at most, less where it is steep, and no longer than the piece itself, except over three traces and
+samples; and it is made only where another piece reaches the fault from its other side.
 """
 
 from collections.abc import Container, Sequence
@@ -93,7 +94,9 @@ def horizon_segments(
     def is_overshoot(segment: HorizonSegment) -> bool:
         return segment.short and any((end.fault, end.side) in claimed for end in segment.ends if end)
 
-    return [segment for segment in extended if not is_overshoot(segment)]
+    kept = [segment for segment in extended if not is_overshoot(segment)]
+    reached = {(end.fault, end.side) for segment in kept for end in segment.ends if end}
+    return kept if cell is None else [_without_one_sided(segment, reached, cell) for segment in kept]
 
 
 def split_at_faults(
@@ -155,6 +158,19 @@ def _extend(segment: HorizonSegment, faults: Sequence[LineString], cell: np.ndar
         ends.append(end)
     bridges = None not in ends and cell is not None and segment.line.length > LEAST * float(np.max(cell))
     return replace(segment, line=LineString(points), ends=(ends[0], ends[1]), short=segment.short and not bridges)
+
+
+def _without_one_sided(
+    segment: HorizonSegment, reached: Container[tuple[int, int]], cell: np.ndarray
+) -> HorizonSegment:
+    """Undo extensions, except short ones, to faults that the horizon does not reach from the other side."""
+    points, ends = shapely.get_coordinates(segment.line), list(segment.ends)
+    for which, end in zip((0, -1), segment.ends, strict=True):
+        if end and (end.fault, -end.side) not in reached:
+            inner = points[1 if which == 0 else -2]
+            if end.gap > 0 and np.hypot(*((points[which] - inner) / cell)) > LEAST:
+                points, ends[which] = np.delete(points, which, axis=0), None
+    return replace(segment, line=LineString(points), ends=(ends[0], ends[1]))
 
 
 def _reach(line: LineString, direction: np.ndarray, cell: np.ndarray | None) -> float:

@@ -40,6 +40,14 @@ def test_a_long_piece_is_not_extended_far(stop):
         extension([(0, 800), (stop, 800)], RIGHT)
 
 
+def test_a_piece_is_not_extended_to_a_fault_that_nothing_else_reaches():
+    other = sw.Fault([(8000.0, 500.0), (8200.0, 830.0)], name="F2")
+    pieces = [(8400, 800), (on_fault(800), 800)], [(on_fault(900), 900), (14000, 900)]
+    beside = sw.Horizon([(7000, 600), (8061, 600)], [(8066, 610), (9000, 610)], name="upper")
+    stage = sw.Restoration(SECTION).unfault([FAULT, other], [sw.Horizon(*pieces, name="H"), beside]).stages[-1]
+    assert {(cutoff.fault, cutoff.horizon) for cutoff in stage.report.cutoffs} == {("F", "H"), ("F2", "upper")}
+
+
 def test_a_small_gap_on_a_short_piece_is_bridged():
     other = sw.Fault([(10600.0, 0.0), (11400.0, 1500.0)], name="F2")
     between = [(on_fault(820, 20), 820), (on_fault(820, 80), 820)]

@@ -681,8 +681,8 @@ def test_cutoffs_of_a_synthetic_section(case):
             found = {m.wall: m.point for m in marks if (m.fault, m.horizon) == (fault.name, horizon.name)}
             if len(case.interpretation.faults) == 1:
                 apart = np.subtract(found["hanging wall"], found["footwall"])
-                assert apart[1] == pytest.approx(throw(fault, horizon))
-                assert abs(apart[0]) == pytest.approx(abs(heave(fault, horizon)))
+                expected = heave(fault, horizon), throw(fault, horizon)  # these do not know the size of a trace
+                np.testing.assert_allclose(np.abs(apart), np.abs(expected), atol=0.01)
             assert len(found) == 2
 
 
