@@ -140,8 +140,8 @@ def _segments(drawing: Drawing, section: Section, pick: Pick) -> list[HorizonSeg
 
 @lru_cache(maxsize=64)  # while one horizon is dragged, the others stay as they are
 def _cached_segments(pieces: Points, faults: Points, metres: Point, cell: Point) -> list[HorizonSegment]:
-    in_rock = ([LineString(np.array(line) * metres) for line in lines] for lines in (pieces, faults))
-    return horizon_segments(*in_rock, np.array(cell))
+    beds, walls = ([LineString(np.array(line) * metres) for line in lines] for lines in (pieces, faults))
+    return horizon_segments(beds, walls, np.array(cell))
 
 
 def _nearest(line: LineString, point: np.ndarray) -> Point:
