@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NoReturn
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -130,23 +130,67 @@ class PickNetwork:
     length: Callable[[float], str] = "{:.4g}".format
 
     def cutoffs(self) -> list[CutOffPair]:
-        """All pairs of cut-offs of the horizons at the faults.
+        """All pairs of cut-offs of the horizons at the faults that agree with each other.
 
         Raises
         ------
         PickError
-            If a horizon meets a fault from one side only, or more often from one side than from the other, or if no
-            horizon meets a fault.
+            If no horizon ends at a fault on both sides.
         """
-        pairs = [pair for fault in self.faults for horizon in self.horizons for pair in self._pairs(fault, horizon)]
         for fault in self.faults:
-            if not any(pair.fault == fault for pair in pairs):
-                raise PickError(
-                    f"no horizon ends at fault {fault!r} on both sides, so its slip is undetermined; "
-                    f"{self._nearest(fault)}",
-                    pick=fault,
-                )
-        return pairs
+            if not any(pair.fault == fault for pair in self._pairs[0]):
+                raise self._undetermined(fault)
+        return self._pairs[0]
+
+    @property
+    def refusals(self) -> list[PickError]:
+        """An error for each horizon that is not matched at a fault: one-sided, met too often, or contradicting."""
+        return self._pairs[1]
+
+    @cached_property
+    def _pairs(self) -> tuple[list[CutOffPair], list[PickError]]:
+        pairs: list[CutOffPair] = []
+        refusals: list[PickError] = []
+        for fault in self.faults:
+            matched: list[CutOffPair] = []
+            for horizon in self.horizons:
+                places = self.places(fault, horizon)
+                matched += [CutOffPair(fault, horizon, one, other) for one, other in places if one and other]
+                refusals += self._unmatched(fault, horizon, places)
+            agreeing, contradicting = self._agreeing(matched)
+            pairs += agreeing
+            refusals += contradicting
+        return pairs, refusals
+
+    def _agreeing(self, pairs: list[CutOffPair]) -> tuple[list[CutOffPair], list[PickError]]:
+        """Remove pairs at a fault until all follow each other in the same order on both sides, as slip leaves them."""
+        refusals: list[PickError] = []
+        while True:
+            one, other = (self._arc_lengths(pairs, wall) for wall in ("hanging_wall", "footwall"))
+            inverted = np.subtract.outer(one, one) * np.subtract.outer(other, other) < 0
+            count = inverted.sum(axis=1)
+            if not count.any():
+                return pairs, refusals
+            worst = int(np.flatnonzero(count == count.max())[-1])
+            refusals.append(self._contradiction(pairs[worst], pairs[int(np.argmax(inverted[worst]))]))
+            pairs = pairs[:worst] + pairs[worst + 1 :]
+
+    def _arc_lengths(self, pairs: Sequence[CutOffPair], wall: str) -> np.ndarray:
+        """Positions of cut-offs along their fault, shape (n,)."""
+        points = [self._point(pair.horizon, getattr(pair, wall)) for pair in pairs]
+        lines = [self.faults[pair.fault] for pair in pairs]
+        return np.array([line.project(Point(point)) for line, point in zip(lines, points, strict=True)])
+
+    def _contradiction(self, pair: CutOffPair, other: CutOffPair) -> PickError:
+        point = self._point(pair.horizon, pair.hanging_wall)
+        return PickError(
+            f"horizon {pair.horizon!r} contradicts horizon {other.horizon!r} at fault {pair.fault!r}, near "
+            f"{self.where(point)}: it lies above the other one on one side of the fault and below it on the other; "
+            "check which pieces belong together",
+            kind="contradiction",
+            pick=pair.horizon,
+            where=self.position(point),
+        )
 
     def ends_at(self, fault: str) -> list[Position]:
         """The points where horizons end at a fault."""
@@ -158,35 +202,39 @@ class PickNetwork:
         """The places along a fault where it cuts a horizon off; see `places_along`."""
         return places_along(self.faults[fault], list(self.faults).index(fault), self.horizons[horizon])
 
-    def _pairs(self, fault: str, horizon: str) -> list[CutOffPair]:
-        places = self.places(fault, horizon)
+    def _unmatched(self, fault: str, horizon: str, places: Sequence[Place]) -> list[PickError]:
+        """An error if some ends of a horizon at a fault have no partner on its other side."""
         sides = {1: [place[0] for place in places if place[0]], -1: [place[1] for place in places if place[1]]}
-        if not sides[1] or not sides[-1]:
-            if places:
-                self._raise_one_sided(fault, horizon, sides)
+        if len(sides[1]) == len(sides[-1]):
             return []
-        pairs = [CutOffPair(fault, horizon, one, other) for one, other in places if one and other]
-        if len(pairs) < len(places):
-            side = 1 if len(sides[1]) > len(sides[-1]) else -1
-            self._raise_two_on_one_side(fault, horizon, side, sorted(sides[side]))
-        return pairs
+        if not sides[1] or not sides[-1]:
+            return [self._one_sided(fault, horizon, sides)]
+        side = 1 if len(sides[1]) > len(sides[-1]) else -1
+        return [self._two_on_one_side(fault, horizon, side, sorted(sides[side]))]
+
+    def _undetermined(self, fault: str) -> PickError:
+        message = f"no horizon ends at fault {fault!r} on both sides, so its slip is undetermined"
+        for horizon in self.horizons:
+            for error in self._unmatched(fault, horizon, self.places(fault, horizon)):
+                return PickError(f"{message}: {error.text}", kind="undetermined", pick=fault, where=error.where)
+        return PickError(f"{message}; {self._nearest(fault)}", kind="undetermined", pick=fault)
 
     def _point(self, horizon: str, segment_end: SegmentEnd) -> Position:
         index, which = segment_end
         return self.horizons[horizon][index].end_point(which)
 
-    def _raise_two_on_one_side(self, fault: str, horizon: str, side: int, ends: list[SegmentEnd]) -> NoReturn:
+    def _two_on_one_side(self, fault: str, horizon: str, side: int, ends: list[SegmentEnd]) -> PickError:
         first, second = (self.horizons[horizon][index].piece for index, _ in ends[:2])
         what = f"pieces {first} and {second}" if first != second else f"both ends of piece {first}"
         point = self._point(horizon, ends[1])
-        raise PickError(
+        return PickError(
             f"{what} of horizon {horizon!r} reach fault {fault!r} in its {WALLS[side]}, the second near "
             f"{self.where(point)}, and fewer in its {WALLS[-side]}; keep one, or join them",
             pick=horizon,
             where=self.position(point),
         )
 
-    def _raise_one_sided(self, fault: str, horizon: str, sides: Mapping[int, Sequence[SegmentEnd]]) -> NoReturn:
+    def _one_sided(self, fault: str, horizon: str, sides: Mapping[int, Sequence[SegmentEnd]]) -> PickError:
         present = 1 if sides[1] else -1
         point = self._point(horizon, sides[present][0])
         message = (
@@ -194,7 +242,7 @@ class PickNetwork:
             f"its {WALLS[-present]}"
         )
         advice = self._out_of_reach(fault, horizon, -present) or "; draw a piece there, or leave one of the two out"
-        raise PickError(message, advice, pick=horizon, where=self.position(point))
+        return PickError(message, advice, kind="one-sided", pick=horizon, where=self.position(point))
 
     def _out_of_reach(self, fault: str, horizon: str, side: int) -> str | None:
         """Text about a piece on this side of the fault that ends too far from it, or None if there is none."""
@@ -256,11 +304,16 @@ def cutoffs(fault: Fault, horizon: Horizon) -> tuple[CutOff, ...]:
     >>> [round(cutoff.throw) for cutoff in sw.cutoffs(picks.faults[0], picks.horizons[0])]
     [100]
     """
+    for flaw in filter(None, (fault.flaw, horizon.flaw)):
+        raise flaw
     line = LineString(fault.points)
     segments = horizon_segments([LineString(piece) for piece in horizon.pieces], [line])
     network = PickNetwork({fault.name: line}, {horizon.name: segments}, "x={0[0]:.6g}, z={0[1]:.6g}".format)
     found = []
-    for pair in network.cutoffs():
+    pairs = network.cutoffs()
+    for error in network.refusals:
+        raise error
+    for pair in pairs:
         one, other = (segments[index].end_point(which) for index, which in (pair.hanging_wall, pair.footwall))
         found.append(CutOff(fault.name, horizon.name, one, other, *separation(fault.points, one, other)))
     return tuple(found)

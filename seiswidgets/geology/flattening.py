@@ -16,7 +16,6 @@ from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import merge_close_points
-from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.observations import observe_level
 from seiswidgets.geology.picks import HORIZON
 from seiswidgets.geology.segments import join_pieces
@@ -58,8 +57,6 @@ def flatten_stage(
     pieces: Sequence[LineString],
     datum: float | None,
     options: SolverOptions,
-    *,
-    notes: Sequence[Finding] = (),
 ) -> Stage:
     """Make a horizon level.
 
@@ -73,8 +70,6 @@ def flatten_stage(
     datum : float or None
         In metres of rock; None for the horizon's mean level.
     options : SolverOptions
-    notes : list of Finding
-        About the picks, for the report.
     """
     began = time.perf_counter()
     fingerprint = domain.fingerprint({name: pieces})
@@ -90,7 +85,7 @@ def flatten_stage(
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=mesh.vertex_areas)
     vertices[:, 0] -= drift  # a shift of the whole sideways costs nothing: choose the least
     observe = partial(observe_level, name, bed, level, vertices, domain)
-    outcome = Outcome((name,), solution, options.solver, time.perf_counter() - began, observe, tuple(notes))
+    outcome = Outcome((name,), solution, options.solver, time.perf_counter() - began, observe)
     return Stage("flatten", mesh, vertices, (), domain, outcome, bed)
 
 

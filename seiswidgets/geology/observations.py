@@ -14,6 +14,7 @@ from seiswidgets.geology.extensions import extension_findings
 from seiswidgets.geology.fault_ends import fault_end_findings
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.growth import growth_findings
+from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport
 
 if TYPE_CHECKING:  # both modules import this one
@@ -36,7 +37,8 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
     ends = fault_end_findings(faults, slips, domain, blocks.ends)
     growth = growth_findings(faults, slips, domain)
     extensions = extension_findings(blocks.network.horizons, list(faults), domain)
-    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *growth, *ends, *extensions))
+    carried = [carried_finding(error) for error in blocks.network.refusals]
+    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *growth, *ends, *extensions, *carried))
 
 
 def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, domain: RestorationDomain) -> Observations:

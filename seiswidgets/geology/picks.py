@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
@@ -13,6 +14,8 @@ from seiswidgets.errors import PickError, SettingError, number_text
 from seiswidgets.geology.section import filled
 
 FAULT, HORIZON = "fault", "horizon"
+USES = CONSTRAIN, CARRY, IGNORE = "constrain", "carry", "ignore"
+MISSING = "missing"  # kind of the errors about picks that a step names and that do not exist
 AUTO, TIP, EXTEND = "auto", "tip", "extend"  # what happens to an end of a fault
 Ends = tuple[str, str]  # for the first and the last point of a fault
 SEGMENTS_AT_ONCE = 64  # of a line, tested together for one that meets an earlier one
@@ -40,22 +43,37 @@ class Fault:
         "auto" draws an end that lies within three traces and samples of the border or of another fault on to it, and
         reports every other end inside the section. "tip" leaves the end where it is: the fault dies out there.
         "extend" draws it on, straight ahead, to the border or the first fault in its way.
+    use : {"constrain", "carry", "ignore"}
+        Whether blocks slide along it, or it only moves with the rock and cuts nothing, or it is left out. A line that
+        crosses itself is carried in any case.
 
     Raises
     ------
     PickError
-        If there are fewer than two different points, if one is not finite, or if the line crosses itself.
+        If there are fewer than two different points, or if one is not finite.
     SettingError
-        If ``ends`` is not one of these.
+        If ``ends`` or ``use`` is not one of these.
     """
 
     points: np.ndarray
     name: str = "fault"
     ends: str | Ends = AUTO
+    use: str = CONSTRAIN
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "ends", both_ends(self.ends))
         object.__setattr__(self, "points", _polyline(self.points, f"fault {self.name!r}", self.name))
+        check_use(self.name, self.use)
+
+    @cached_property
+    def flaw(self) -> PickError | None:
+        """The reason why the fault can only be carried, or None: it crosses itself, or closes on itself."""
+        return _flaw(self.points, f"fault {self.name!r}", self.name)
+
+    @property
+    def constrains(self) -> bool:
+        """True if blocks slide along it."""
+        return self.use == CONSTRAIN and self.flaw is None
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -68,22 +86,48 @@ class Horizon:
         Rows ``(x, z)`` in the section's units; pieces and their points in any direction and order.
     name : str
         Its name in errors and reports.
+    use : {"constrain", "carry", "ignore"}
+        Whether it is matched across faults, or it only moves with the rock, or it is left out. Pieces that cross
+        themselves are carried in any case.
 
     Raises
     ------
     PickError
-        If there is no piece, or a piece has fewer than two different points, one that is not finite, or crosses itself.
+        If there is no piece, or a piece has fewer than two different points, or one that is not finite.
+    SettingError
+        If there is no such use.
     """
 
     pieces: tuple[np.ndarray, ...]
     name: str = "horizon"
+    use: str = CONSTRAIN
 
-    def __init__(self, *pieces: ArrayLike, name: str = "horizon") -> None:
+    def __init__(self, *pieces: ArrayLike, name: str = "horizon", use: str = CONSTRAIN) -> None:
         object.__setattr__(self, "name", name)
+        object.__setattr__(self, "use", use)
+        check_use(name, use)
         if not pieces:
             raise PickError(f"horizon {name!r} needs at least one piece; draw a line of two points or more", pick=name)
         lines = (_polyline(piece, f"piece {index} of horizon {name!r}", name) for index, piece in enumerate(pieces, 1))
         object.__setattr__(self, "pieces", tuple(lines))
+
+    @cached_property
+    def flaws(self) -> tuple[PickError | None, ...]:
+        """For each piece the reason why it can only be carried, or None: it crosses itself, or closes on itself."""
+        return tuple(
+            _flaw(piece, f"piece {index} of horizon {self.name!r}", self.name)
+            for index, piece in enumerate(self.pieces, 1)
+        )
+
+    @property
+    def flaw(self) -> PickError | None:
+        """The flaw of the first piece that has one."""
+        return next(filter(None, self.flaws), None)
+
+    @property
+    def constrains(self) -> bool:
+        """True if at least one piece is matched across faults."""
+        return self.use == CONSTRAIN and None in self.flaws
 
     def __repr__(self) -> str:
         return f"Horizon({', '.join(f'{len(piece)} points' for piece in self.pieces)}, name={self.name!r})"
@@ -124,42 +168,42 @@ class Interpretation:
 Problem = tuple[str, str, int, str]  # kind and name of a pick, index of the piece, and what is wrong with it
 
 
-def usable(drawn: Iterable[tuple[str, str, Sequence[ArrayLike]]]) -> tuple[Interpretation, tuple[Problem, ...]]:
-    """Separate drawn lines into an interpretation of those that can be used, and the problems of the others.
+def usable(
+    drawn: Iterable[tuple[str, str, Sequence[ArrayLike], str]],
+) -> tuple[Interpretation, tuple[Problem, ...]]:
+    """Make an interpretation of drawn lines, without those that are none, and list the problems of lines.
 
     Parameters
     ----------
-    drawn : iterable of (kind, name, pieces)
-        "fault" or "horizon", its name, and lists of points (x, z); one list for a fault.
+    drawn : iterable of (kind, name, pieces, use)
+        "fault" or "horizon", its name, lists of points (x, z), one list for a fault, and its use.
 
     Returns
     -------
     interpretation : Interpretation
+        Lines that cross themselves included: they are carried.
     problems : tuple of (kind, name, index, message)
-        One for each piece that cannot be used; pieces count from 0.
+        One for each piece that is left out or can only be carried; pieces count from 0.
     """
     faults: list[Fault] = []
     horizons: list[Horizon] = []
     problems: list[Problem] = []
-    for kind, name, pieces in drawn:
-        messages = [_problem(kind, name, piece, index) for index, piece in enumerate(pieces)]
-        problems += [(kind, name, index, message) for index, message in enumerate(messages) if message]
-        good = [piece for piece, message in zip(pieces, messages, strict=True) if not message]
+    for kind, name, pieces, use in drawn:
+        good: list[np.ndarray] = []
+        for index, piece in enumerate(pieces):
+            what = f"fault {name!r}" if kind == FAULT else f"piece {index + 1} of horizon {name!r}"
+            try:
+                good.append(_polyline(piece, what, name))
+                flaw = _flaw(good[-1], what, name)
+            except PickError as error:
+                flaw = error
+            if flaw:
+                problems.append((kind, name, index, str(flaw)))
         if good and kind == FAULT:
-            (points,) = good
-            faults.append(Fault(np.asarray(points), name))
+            faults.append(Fault(good[0], name, use=use))
         elif good:
-            horizons.append(Horizon(*good, name=name))
+            horizons.append(Horizon(*good, name=name, use=use))
     return Interpretation(faults, horizons), tuple(problems)
-
-
-def _problem(kind: str, name: str, piece: ArrayLike, index: int) -> str | None:
-    """The reason why a piece cannot be used, or None."""
-    try:
-        _polyline(piece, f"fault {name!r}" if kind == FAULT else f"piece {index + 1} of horizon {name!r}", name)
-    except PickError as error:
-        return str(error)
-    return None
 
 
 def _find(picks: Sequence[Pick], kind: str, name: str) -> Pick:
@@ -167,7 +211,7 @@ def _find(picks: Sequence[Pick], kind: str, name: str) -> Pick:
         if pick.name == name:
             return pick
     names = ", ".join(repr(pick.name) for pick in picks) or "none"
-    raise PickError(f"there is no {kind} called {name!r}; there are {names}", pick=name)
+    raise PickError(f"there is no {kind} called {name!r}; there are {names}", kind=MISSING, pick=name)
 
 
 def _polyline(points: ArrayLike, what: str, name: str) -> np.ndarray:
@@ -184,19 +228,30 @@ def _polyline(points: ArrayLike, what: str, name: str) -> np.ndarray:
     if len(line) < 2 or (line == line[0]).all():
         count = len(np.unique(line, axis=0))
         raise PickError(f"{what} needs at least two different points, but has {count}", pick=name)
-    x, z = line[0].tolist()
-    if (line[0] == line[-1]).all():
-        raise PickError(f"{what} closes on itself at {_at(x, z)}; leave it open", pick=name, where=(x, z))
-    if not shapely.LineString(line).is_simple:
-        x, z = _self_crossing(line)
-        text = f"{what} crosses itself near {_at(x, z)}; redraw it or split it in two"
-        raise PickError(text, pick=name, where=(x, z))
     line.setflags(write=False)
     return line
 
 
 def _at(x: float, z: float) -> str:
     return f"x={number_text(x)}, z={number_text(z)}"
+
+
+def check_use(name: str, use: str) -> None:
+    """Raise SettingError for a use that does not exist."""
+    if use not in USES:
+        raise SettingError(f"the use of {name!r} must be one of {', '.join(USES)}, but is {use!r}", pick=name)
+
+
+def _flaw(line: np.ndarray, what: str, name: str) -> PickError | None:
+    """The reason why a line can only be carried, or None; ``what`` names it in the text, ``name`` its pick."""
+    if (line[0] == line[-1]).all():
+        x, z = line[0].tolist()
+        return PickError(f"{what} closes on itself at {_at(x, z)}; leave it open", pick=name, where=(x, z))
+    if shapely.LineString(line).is_simple:
+        return None
+    x, z = _self_crossing(line)
+    text = f"{what} crosses itself near {_at(x, z)}; redraw it or split it in two"
+    return PickError(text, pick=name, where=(x, z))
 
 
 def _self_crossing(line: np.ndarray) -> tuple[float, float]:

@@ -15,7 +15,8 @@ from seiswidgets.core.solver import Progress
 from seiswidgets.core.triangulation import DENSITY
 from seiswidgets.errors import Keyword, PickError, SettingError
 from seiswidgets.geology import validation
-from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.passive import carried_finding
+from seiswidgets.geology.picks import CONSTRAIN, MISSING, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import GAUSS_NEWTON, SolverKeywords, SolverOptions
@@ -161,9 +162,14 @@ class RestorationJob:
 
     @property
     def steps(self) -> list[Step]:
-        """The steps that are on and have picks."""
-        has_picks = {UNFAULT: bool(self.interpretation.faults), FLATTEN: bool(self.interpretation.horizons)}
-        return [step for step in self.plan.steps if step.on and (step.picks or has_picks[step.kind])]
+        """The steps that are on and have picks to use."""
+        return [step for step in self.plan.steps if step.on and self._has_picks(step)]
+
+    def _has_picks(self, step: Step) -> bool:
+        if step.kind == FLATTEN:
+            return bool(step.picks) or any(horizon.use == CONSTRAIN for horizon in self.interpretation.horizons)
+        unused = {fault.name for fault in self.interpretation.faults if fault.use != CONSTRAIN}
+        return not unused.issuperset(step.picks or [fault.name for fault in self.interpretation.faults])
 
     @property
     def coarse(self) -> "RestorationJob":
@@ -187,16 +193,24 @@ class RestorationJob:
         earlier: tuple["RestorationJob", Restoration] | None = None,
         progress: StepProgress | None = None,
     ) -> Restoration:
-        """Run the plan, reusing or warm-starting the stages of an earlier job."""
+        """Run the plan, reusing or warm-starting the stages of an earlier job.
+
+        A step without a pick that can be used is skipped, if there are others; ``Restoration.skipped`` says why.
+        """
         restoration = Restoration(self.section, self.plan.spacing, quick=self.quick)
         stages = earlier[1].stages if earlier else ()
-        reusable = self._count_reusable(earlier[0]) if earlier else 0
+        reusable = self._count_reusable(earlier[0]) if earlier and not earlier[1].skipped else 0
         for index, step in enumerate(self.steps):
             if index < reusable:
                 restoration = replace(restoration, stages=stages[: index + 1])
                 continue
             start = stages[index] if index < len(stages) and stages[index].kind == step.kind else None
-            restoration = self._carry_out(restoration, step, start, progress and _of_step(progress, index))
+            try:
+                restoration = self._carry_out(restoration, step, start, progress and _of_step(progress, index))
+            except PickError as error:
+                if error.pick is None or error.kind == MISSING or len(self.steps) == 1:
+                    raise
+                restoration = replace(restoration, skipped=(*restoration.skipped, carried_finding(error)))
         return restoration
 
     def _carry_out(
@@ -228,9 +242,12 @@ class RestorationJob:
         if len(step.picks) > 1:
             raise PickError(
                 f"one horizon is flattened at a time, but a step names {', '.join(map(repr, step.picks))}",
+                kind=MISSING,
                 pick=step.picks[1],
             )
-        return self.interpretation.horizon(step.picks[0]) if step.picks else self.interpretation.horizons[0]
+        if step.picks:
+            return self.interpretation.horizon(step.picks[0])
+        return next(horizon for horizon in self.interpretation.horizons if horizon.use == CONSTRAIN)
 
     def _count_reusable(self, earlier: "RestorationJob") -> int:
         """Number of leading steps that have the same inputs as in an earlier job."""
@@ -248,7 +265,9 @@ class RestorationJob:
             names = [field.name for field in fields(Weights) if field.name not in UNUSED_WEIGHTS[step.kind]]
             weights = [getattr(self.plan.weights, name) for name in names]
             fixed = self.plan.fixed if step.kind == UNFAULT else None
-            lines = [(pick.name, *_lines(pick)) for pick in picks]
+            lines = [
+                (pick.name, pick.use, pick.ends if isinstance(pick, Fault) else "", *_lines(pick)) for pick in picks
+            ]
             count = len(self._faults(step)) if step.kind == UNFAULT else 0
             yield step.kind, step.datum, fixed, count, lines, weights, shared
 

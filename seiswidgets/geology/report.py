@@ -151,7 +151,7 @@ class Report:
     @property
     def verdict(self) -> str:
         """One sentence: whether the solver settled, what it achieved, and the worst problem or warning."""
-        return verdict([self])
+        return verdict([self], self.findings)
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the report line by line, each a label and a text with its unit.
@@ -163,7 +163,7 @@ class Report:
         rows += [(f"{cutoff.horizon} at {cutoff.fault}", self._offset(cutoff)) for cutoff in self.cutoffs]
         rows += [(f"horizon {bed.horizon}", self._bed(bed)) for bed in self.beds]
         percentiles = ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())
-        rows.append(("area before / after", f"{percentiles}; above 1, restoring compressed the rock"))
+        rows.append(("area ratio, before / after", f"{percentiles}; above 1, restoring compressed the rock"))
         rows.append(("overlap and gaps", f"{self.overlap:.3g} m² of rock on other rock, {self.gap:.3g} m² of gaps"))
         rows += [("motion", self._motion(motion)) for motion in self.motions]
         return rows + self._solver_rows()
@@ -207,10 +207,10 @@ class Report:
         return f"<table>{''.join(cells)}</table>"
 
 
-def verdict(reports: Sequence[Report]) -> str:
+def verdict(reports: Sequence[Report], findings: Sequence[Finding]) -> str:
     """One sentence on some stages: whether all settled, what they achieved, and the worst problem or warning."""
-    outcome = "Settled" if all(report.converged for report in reports) else "Not settled"
-    grave = worst(worst_first(finding for report in reports for finding in report.findings))
+    settled = "Settled" if all(report.converged for report in reports) else "Not settled"
+    outcome, grave = settled if reports else "Nothing has been restored yet", worst(findings)
     doubt = [f"but {grave.text.removesuffix('.')}"] if grave else []
     return "; ".join([outcome, *achievements(reports), *doubt]) + ("" if doubt and doubt[0].endswith("?") else ".")
 
@@ -218,7 +218,7 @@ def verdict(reports: Sequence[Report]) -> str:
 def achievements(reports: Sequence[Report]) -> list[str]:
     """How well cut-offs meet and the last flattened horizon lies, in samples."""
     misfits = [cutoff.misfit / report.sample for report in reports for cutoff in report.cutoffs]
-    level = [bed for bed in reports[-1].beds if bed.flatness is not None]  # later stages may bend earlier beds
+    level = [bed for report in reports[-1:] for bed in report.beds if bed.flatness is not None]  # later stages may bend
     return [
         *([f"cut-offs meet to {_rounded(max(misfits))} samples"] if misfits else []),
         *(f"{bed.horizon} lies on its datum to {_rounded(bed.flatness or 0)} {reports[-1].z_unit}" for bed in level),

@@ -16,6 +16,7 @@ from seiswidgets.geology.clipping import CLIPPED, clip_findings
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage
+from seiswidgets.geology.passive import carried_finding, carry_refused, constraining, flaws
 from seiswidgets.geology.picks import Fault, Horizon, both_ends
 from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
@@ -49,6 +50,8 @@ class Restoration:
         The stages so far.
     quick : bool
         True if lines may lose details that are small beside the mesh spacing, for a preview.
+    skipped : tuple of Finding
+        The reasons why steps of a plan were skipped.
 
     Raises
     ------
@@ -70,6 +73,7 @@ class Restoration:
     spacing: float | None = None
     stages: tuple[Stage, ...] = ()
     quick: bool = False
+    skipped: tuple[Finding, ...] = ()
 
     def __post_init__(self) -> None:
         if not isinstance(self.original, Section):
@@ -96,8 +100,10 @@ class Restoration:
         Parameters
         ----------
         faults : Fault or list of Fault
+            Those whose ``use`` is "constrain".
         horizons : Horizon or list of Horizon
-            Each fault needs at least one that meets it on both sides.
+            Each fault needs at least one that meets it on both sides. A fault without one, and any other pick that
+            cannot be used as it was drawn, is carried along with the rock, and the report has a finding about it.
         boundaries : Fault or list of Fault
             The other faults of the interpretation, such as older ones that are restored later: no bed crosses them,
             and the rock does not slip along them. Those that are also among ``faults`` are left out.
@@ -122,7 +128,7 @@ class Restoration:
         Raises
         ------
         PickError
-            If the picks cannot be used as they were drawn.
+            If no fault can be used as it was drawn.
         SettingError
             If an option is out of its range or misspelt, or the mesh would be too large.
         FlippedError
@@ -137,15 +143,43 @@ class Restoration:
             raise PickError("there is no fault to unfault; give at least one")
         named_boundaries = validation.named_picks(boundaries, Fault, "fault")
         held = None if fixed is None else carried_point(self.original, self.stages, fixed)
-        lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in named_faults.items()}
-        ends = {name: both_ends(fault.ends) for name, fault in named_faults.items()}
-        beds = {name: carried_horizon(self.original, self.stages, bed) for name, bed in named_horizons.items()}
         others = {name: fault for name, fault in named_boundaries.items() if fault not in named_faults.values()}
-        walls = carried_boundaries(self.original, self.stages, others)
-        notes = self._clipped(*named_faults.values(), *named_horizons.values())
-        stage = unfault_stage(self.domain, lines, beds, held, solver_options, walls, ends=ends, notes=notes)
+        walls = carried_boundaries(self.original, self.stages, constraining(others))
+
+        def slide_blocks(faults: dict[str, Fault], horizons: dict[str, Horizon]) -> Stage:
+            lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in faults.items()}
+            beds = {
+                name: carried_horizon(self.original, self.stages, bed, flawless=True) for name, bed in horizons.items()
+            }
+            ends = {name: both_ends(fault.ends) for name, fault in faults.items()}
+            return unfault_stage(self.domain, lines, beds, held, solver_options, walls, ends=ends)
+
+        picks: list[Fault | Horizon] = [*named_faults.values(), *named_horizons.values()]
+        faults_used, horizons_used = constraining(named_faults), constraining(named_horizons)
+        if not faults_used:
+            raise next(
+                iter(flaws(picks)), PickError("no fault is used as a constraint; set the use of one to 'constrain'")
+            )
+        stage, refusals = carry_refused(slide_blocks, faults_used, horizons_used)
         stage = replace(stage, weights=solver_options.weights, fixed=fixed)
-        return replace(self, stages=(*self.stages, stage))
+        return self._with_stage(stage, picks, refusals)
+
+    def _with_stage(
+        self, stage: Stage, picks: Sequence[Fault | Horizon], refusals: Sequence[PickError] = ()
+    ) -> "Restoration":
+        """Add a stage, with notes about the picks that it clipped, refused, or could only carry."""
+        flawed = [self._brought_here(carried_finding(flaw)) for flaw in flaws(picks)]
+        clipped = self._clipped(*(pick for pick in picks if pick.constrains))
+        return replace(
+            self, stages=(*self.stages, stage.with_notes(*clipped, *map(carried_finding, refusals), *flawed))
+        )
+
+    def _brought_here(self, finding: Finding) -> Finding:
+        """A finding with its position after the stages so far."""
+        if finding.where is None or not self.stages:
+            return finding
+        ((x, z),) = self.to_restored([finding.where])
+        return replace(finding, where=(float(x), float(z)) if np.isfinite([x, z]).all() else None)
 
     def flatten(
         self, horizon: Horizon, *, datum: float | None = None, **options: Unpack[SolverKeywords]
@@ -172,12 +206,13 @@ class Restoration:
         """
         solver_options = SolverOptions.from_keywords("flatten", options)
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
+        if horizon.flaw and None not in horizon.flaws:
+            raise horizon.flaw
         if datum is not None:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
-        pieces = carried_horizon(self.original, self.stages, horizon)
-        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, notes=self._clipped(horizon))
-        stage = replace(stage, weights=solver_options.weights)
-        return replace(self, stages=(*self.stages, stage))
+        pieces = carried_horizon(self.original, self.stages, horizon, flawless=True)
+        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options)
+        return self._with_stage(replace(stage, weights=solver_options.weights), [horizon])
 
     def _clipped(self, *picks: Fault | Horizon) -> tuple[Finding, ...]:
         """Notes about picks that stick out of the section, unless an earlier stage has them."""
@@ -210,7 +245,7 @@ class Restoration:
     @property
     def verdict(self) -> str:
         """One sentence on all stages: whether they settled, what they achieved, and the worst problem or warning."""
-        return verdict([stage.report for stage in self.stages]) if self.stages else "Nothing has been restored yet."
+        return verdict([stage.report for stage in self.stages], self.findings)
 
     @property
     def settled(self) -> bool:
@@ -220,7 +255,7 @@ class Restoration:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """The findings of all stages, problems first; ``where`` is a position in the original section, or None."""
-        findings: list[Finding] = []
+        findings = list(self.skipped)
         for index, stage in enumerate(self.stages):
             before = replace(self, stages=self.stages[:index])
             findings += [replace(finding, where=before._origin(finding.where)) for finding in stage.report.findings]

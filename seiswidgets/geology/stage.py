@@ -29,6 +29,7 @@ from seiswidgets.geology.weights import Weights
 SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
 PERCENTS = (1, 50, 99)
 FINE, LEAST_POINTS = 0.25, 64  # a line is carried at points a quarter of the spacing apart, and at least this many
+WITHIN = np.vstack([np.full(3, 1 / 3), 0.1 + 0.7 * np.eye(3), 0.45 - 0.35 * np.eye(3)])  # points in a triangle
 CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
 
 
@@ -176,6 +177,10 @@ class Stage:
             sample=self.domain.sample,
         )
 
+    def with_notes(self, *notes: Finding) -> "Stage":
+        """The stage with findings about its picks that were made before solving."""
+        return replace(self, outcome=replace(self.outcome, notes=notes))
+
     def _unsettled(self) -> tuple[Finding, ...]:
         """A finding if the solver did not settle."""
         solution, picks = self.outcome.solution, self.outcome.picks
@@ -194,15 +199,16 @@ class Stage:
         return (Finding("problem", "unsettled", text, pick, self.domain.position(point)),)
 
     def _overlapping(self, area: float) -> tuple[Finding, ...]:
-        """A finding if rock lies on other rock, at the largest triangle whose centre another triangle covers too."""
+        """A finding if rock lies on other rock, at the largest triangle in which another one covers a point too."""
         if area <= self.domain.slack * self.spacing:
             return ()
-        centres = self.vertices[self.mesh.triangles].mean(axis=1)
-        covered = np.flatnonzero(self.map.target_finder(centres) != np.arange(len(centres)))
+        inside = np.einsum("pc,tcx->ptx", WITHIN, self.vertices[self.mesh.triangles])
+        holders = self.map.target_finder(inside.reshape(-1, 2)).reshape(len(WITHIN), -1)
+        which, covered = np.nonzero(holders != np.arange(len(self.mesh.triangles)))
         example, where = "", None
         if len(covered):
-            largest = self.mesh.triangles[covered[np.argmax(self.mesh.areas[covered])]]
-            point = self.mesh.vertices[largest].mean(axis=0)
+            largest = np.argmax(self.mesh.areas[covered])
+            point = WITHIN[which[largest]] @ self.mesh.vertices[self.mesh.triangles[covered[largest]]]
             example, where = f", such as the rock from near {self.domain.where(point)}", self.domain.position(point)
         text = (
             f"{area:.3g} m² of rock lie on other rock{example}: the picture shows only one of the two there. Check the "
@@ -292,7 +298,8 @@ class Stage:
         nudge = min(INWARDS * self.spacing, line.length / 4)
         within[[0, -1]] = [line.interpolate(distance).coords[0] for distance in (nudge, line.length - nudge)]
         along = np.gradient(points, axis=0)
-        within += sideways * along[:, ::-1] * [-1, 1] / np.hypot(*along.T)[:, None]
+        lengths = np.maximum(np.hypot(*along.T), np.finfo(float).tiny)  # 0 where a line turns back
+        within += sideways * along[:, ::-1] * [-1, 1] / lengths[:, None]
         moved = self.map.forward(points, self.map.source_finder(within))
         moved = moved[np.isfinite(moved).all(axis=1)]
         return LineString(moved) if len(moved) > 1 else None

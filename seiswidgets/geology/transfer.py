@@ -46,9 +46,15 @@ def _carried_parts(original: Section, stages: Sequence[Stage], fault: Fault) -> 
     return lines
 
 
-def carried_horizon(original: Section, stages: Sequence[Stage], horizon: Horizon) -> list[LineString]:
-    """The pieces of a horizon after some stages, joined where they now meet; without what sticks out of the section."""
-    lines = [LineString(points) for piece in horizon.pieces for points in clip_line(original, piece)]
+def carried_horizon(
+    original: Section, stages: Sequence[Stage], horizon: Horizon, *, flawless: bool = False
+) -> list[LineString]:
+    """The pieces of a horizon after some stages, joined where they now meet; without what sticks out of the section.
+
+    Pieces with a flaw can be left out.
+    """
+    pieces = [piece for piece, flaw in zip(horizon.pieces, horizon.flaws, strict=True) if not (flawless and flaw)]
+    lines = [LineString(points) for piece in pieces for points in clip_line(original, piece)]
     if not lines:
         raise _outside(original, f"horizon {horizon.name!r}", horizon)
     for stage in stages:

@@ -29,7 +29,6 @@ from seiswidgets.geology.fault_lines import (
     insert_points,
     route_through,
 )
-from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.observations import observe_slip
 from seiswidgets.geology.picks import FAULT, HORIZON, Ends
 from seiswidgets.geology.segments import horizon_segments
@@ -102,7 +101,6 @@ def unfault_stage(
     boundaries: Mapping[str, np.ndarray],
     *,
     ends: Mapping[str, Ends] = NO_ENDS,
-    notes: Sequence[Finding] = (),
 ) -> Stage:
     """Undo the slip on some faults.
 
@@ -118,8 +116,6 @@ def unfault_stage(
         Faults that are not restored in this stage, and that beds do not cross.
     ends : dict of str to pair of str
         See `Fault.ends`.
-    notes : list of Finding
-        About the picks, for the report.
     """
     began = time.perf_counter()
     others = [LineString(points) for points in boundaries.values()]
@@ -141,7 +137,7 @@ def unfault_stage(
     observe = partial(observe_slip, blocks, solution, domain)
     faults_drawn = blocks.network.faults
     seconds = time.perf_counter() - began
-    outcome = Outcome(tuple(faults_drawn), solution, options.solver, seconds, observe, tuple(notes))
+    outcome = Outcome(tuple(faults_drawn), solution, options.solver, seconds, observe)
     return Stage("unfault", welded, vertices, tuple(faults_drawn.values()), domain, outcome, blocks, blocks.boundaries)
 
 

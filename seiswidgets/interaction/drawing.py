@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.pick_colours import COLOURS
-from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
+from seiswidgets.geology.picks import CONSTRAIN, FAULT, HORIZON, Interpretation, check_use, usable
 from seiswidgets.geology.section import Section
 
 LETTERS = {FAULT: "F", HORIZON: "H"}
@@ -34,6 +34,8 @@ class Pick:
         "#rrggbb", or the name of a colour.
     visible : bool
         Hidden picks take part in the restoration all the same.
+    use : {"constrain", "carry", "ignore"}
+        See `Fault` and `Horizon`.
     """
 
     kind: str
@@ -41,6 +43,7 @@ class Pick:
     pieces: tuple[Points, ...]
     colour: str
     visible: bool = True
+    use: str = CONSTRAIN
 
 
 @dataclass(frozen=True)
@@ -200,6 +203,11 @@ class Drawing:
         """Show or hide a pick."""
         return self._with_changes(kind, name, visible=bool(visible))
 
+    def with_use(self, kind: str, name: str, use: str) -> "Drawing":
+        """Let a pick constrain the restoration, only carry it along, or ignore it."""
+        check_use(name, use)
+        return self._with_changes(kind, name, use=use)
+
     def without_pick(self, kind: str, name: str) -> "Drawing":
         """Delete a pick."""
         deleted = self.pick(kind, name)
@@ -209,17 +217,24 @@ class Drawing:
         """Replace the picks by those of an interpretation; picks of the same name keep their looks."""
         looks = {(pick.kind, pick.name): (pick.colour, pick.visible) for pick in self.picks}
         drawing = replace(self, picks=())
-        faults = [(FAULT, fault.name, (fault.points,)) for fault in interpretation.faults]
-        horizons = [(HORIZON, horizon.name, horizon.pieces) for horizon in interpretation.horizons]
-        for kind, name, pieces in (*faults, *horizons):
-            drawing = drawing.with_pick(kind, name, pieces, *looks.get((kind, name), ()))
+        faults = [(FAULT, fault.name, (fault.points,), fault.use) for fault in interpretation.faults]
+        horizons = [(HORIZON, horizon.name, horizon.pieces, horizon.use) for horizon in interpretation.horizons]
+        for kind, name, pieces, use in (*faults, *horizons):
+            colour, visible = looks.get((kind, name), (None, True))
+            drawing = drawing.with_pick(kind, name, pieces, colour, visible, use)
         return drawing
 
     def with_pick(
-        self, kind: str, name: str, pieces: Iterable[ArrayLike], colour: str | None = None, visible: bool = True
+        self,
+        kind: str,
+        name: str,
+        pieces: Iterable[ArrayLike],
+        colour: str | None = None,
+        visible: bool = True,
+        use: str = CONSTRAIN,
     ) -> "Drawing":
         """Add a pick, in a colour of its own if none is given."""
-        new = Pick(kind, name, tuple(map(_points, pieces)), colour or self._free_colour(kind), visible)
+        new = Pick(kind, name, tuple(map(_points, pieces)), colour or self._free_colour(kind), visible, use)
         return replace(self, picks=(*self.picks, new))
 
     def lies_on(self, section: Section) -> bool:
@@ -239,17 +254,17 @@ class Drawing:
 
     @property
     def problems(self) -> list[tuple[str, str]]:
-        """Name and message for each line that is kept but cannot be used."""
+        """Name and message for each line that cannot be used, or only be carried along."""
         return [(name, message) for _, name, _, message in self._checked[1]]
 
     def valid_pieces(self, pick: Pick) -> list[int]:
-        """Indices of the pieces of a pick that can be used."""
+        """Indices of the pieces of a pick that can constrain a restoration."""
         invalid = {piece for kind, name, piece, _ in self._checked[1] if (kind, name) == (pick.kind, pick.name)}
         return [piece for piece in range(len(pick.pieces)) if piece not in invalid]
 
     @property
     def _checked(self) -> tuple[Interpretation, tuple[tuple[str, str, int, str], ...]]:
-        return _usable(tuple((pick.kind, pick.name, pick.pieces) for pick in self.picks))
+        return _usable(tuple((pick.kind, pick.name, pick.pieces, pick.use) for pick in self.picks))
 
     def _with_vertices(self, target: PickSelection, inserted: Sequence[Sequence[float]], removed: int) -> "Drawing":
         """Replace some vertices from the target on by others."""

@@ -145,11 +145,11 @@ def test_a_solver_that_did_not_settle():
 
 @pytest.fixture(scope="module")
 def contradicting():
-    """The upper bed of one side is joined to the lower one of the other: no slip makes both match."""
+    """The upper bed of one side is joined to its own other side, the middle one to the lowest: no slip matches both."""
     case = sw.synthetic.planar_fault()
-    (left, right), _, (low_left, low_right) = (horizon.pieces for horizon in case.interpretation.horizons)
-    crossed = [sw.Horizon(left, low_right, name="A"), sw.Horizon(low_left, right, name="B")]
-    fault, weights = case.interpretation.faults, sw.Weights(stitch=1)
+    (left, right), (low_left, _), (_, low_right) = (horizon.pieces for horizon in case.interpretation.horizons)
+    crossed = [sw.Horizon(left, right, name="A"), sw.Horizon(low_left, low_right, name="B")]
+    fault, weights = case.interpretation.faults, sw.Weights(stitch=1, slide=0.1)
     return crossed, sw.Restoration(case.section, spacing=100).unfault(fault, crossed, weights=weights)
 
 
@@ -173,8 +173,11 @@ def test_sides_of_a_fault_that_part(contradicting):
     assert line.distance(shapely.Point(parted.where)) < 1
 
 
-def test_rock_on_rock(contradicting):
-    _, restored = contradicting
+def test_rock_on_rock():
+    """Two faults that cross cannot both slip at once."""
+    faults = [sw.Fault([(x, 0), (3000 - x, 2000)], name=name) for x, name in ((1000, "F1"), (2000, "F2"))]
+    bed = sw.Horizon([(0, 700), (1350, 700)], [(1400, 800), (1600, 800)], [(1650, 700), (4000, 700)], name="A")
+    restored = sw.Restoration(DEPTH_SECTION, 100).unfault(faults, bed)
     (overlap,) = of_kind(restored.findings, "overlap")
     stage = restored.stages[-1]
     assert overlap.severity == "problem"

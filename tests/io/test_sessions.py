@@ -120,12 +120,27 @@ def test_lines_that_cannot_be_used_are_kept_and_told_of(session, tmp_path):
     drawn.save(tmp_path / "session.json")
     again = sw.open_session(tmp_path / "session.json")
     assert again == drawn
-    assert [fault.name for fault in again.interpretation.faults] == ["F1"]
-    assert len(again.interpretation.horizons[0].pieces) == len(session.horizons[0].pieces)
+    assert [fault.constrains for fault in again.interpretation.faults] == [True, False]
+    assert [bool(flaw) for flaw in again.interpretation.horizons[0].flaws] == [False, False, True]
     assert [problem[:40] for problem in again.problems] == [
         "fault 'F2' crosses itself near x=10, z=1",
         "piece 3 of horizon 'H1' crosses itself n",
     ]
+
+
+def test_the_use_of_picks_is_kept_and_older_files_have_none(session, tmp_path):
+    drawn = replace(session, horizons=(replace(session.horizons[0], use="carry"), *session.horizons[1:]))
+    drawn.save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json") == drawn
+    assert drawn.interpretation.horizons[0].use == "carry"
+    text = (tmp_path / "session.json").read_text()
+    (tmp_path / "older.json").write_text(re.sub(r',\s*"use": "\w+"', "", text))
+    assert sw.open_session(tmp_path / "older.json").interpretation.horizons[0].use == "constrain"
+    (tmp_path / "worse.json").write_text(text.replace('"carry"', '"cut"'))
+    with pytest.raises(
+        DataError, match=r"picks.horizons\[0\].*the use of 'H1' must be one of constrain, carry, ignore"
+    ):
+        sw.open_session(tmp_path / "worse.json")
 
 
 def test_what_could_not_be_opened_again_is_not_made(session, tmp_path):

@@ -216,9 +216,11 @@ def test_progress_names_the_step_its_iteration_and_the_energy(app, monkeypatch):
 
 
 def test_what_is_wrong_is_said_in_the_app_and_beside_the_pick(app, case):
+    app.steps = (sw.Step("unfault"),)
+    assert app.wait(LONG)
     before = app.restoration
     far = sw.Fault([(100.0, 100.0), (150.0, 500.0)], "<b>far</b>")
-    app.interpretation = sw.Interpretation([*case.interpretation.faults, far], case.interpretation.horizons)
+    app.interpretation = sw.Interpretation([far], case.interpretation.horizons)
     app.restore()
     assert app.wait(LONG)
     assert "<b>far</b>" in app.status.text

@@ -228,9 +228,9 @@ def test_contradicting_picks_are_a_problem_in_the_app(app, case):
     app.interpretation = sw.Interpretation(case.interpretation.faults, [falling, rising])
     assert app.wait(LONG)
     assert 'role="alert"' in app.status.line.value
-    assert "more (see Report)" in app.status.text
+    assert "'rising' contradicts horizon 'falling'" in app.status.text
     assert app.panes.restored.badge.severity == "problem"
-    assert "falling at fault F1" in message(app.picker, "horizon").value
+    assert "until then it is carried along" in app.picker.list.rows("horizon")["rising"].message.value
     app.interpretation = case.interpretation
     assert app.wait(LONG)
     assert app.status.text == GOOD_TEXT

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError, Text
+from seiswidgets.geology.picks import CONSTRAIN
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.weights import Weights
 from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
@@ -89,7 +90,7 @@ def _folder(path: Path) -> Path:
 
 
 def _style(pick: SavedPick) -> dict[str, object]:
-    return {"colour": pick.colour, "visible": pick.visible}
+    return {"colour": pick.colour, "visible": pick.visible, "use": pick.use}
 
 
 def read_session_fields(path: Path, allow_outside: bool) -> SessionFields:
@@ -197,7 +198,8 @@ def _picks(entry: Entry, read_pieces: Callable[[Entry], tuple[Points, ...]]) -> 
         if name in picks:
             raise item["name"].error("a name that no other pick has")
         colour, visible = item.optional("colour", Entry.text, None), item.optional("visible", Entry.flag, True)
-        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible)
+        use = item.optional("use", Entry.text, CONSTRAIN)
+        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible, use)
     return tuple(picks.values())
 
 

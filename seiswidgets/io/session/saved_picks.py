@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seiswidgets.errors import PickError, SettingError
-from seiswidgets.geology.picks import Fault, Horizon
+from seiswidgets.geology.picks import CONSTRAIN, Fault, Horizon, check_use
 from seiswidgets.io.document import Points
 
 COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")  # nothing else may get into a page
@@ -25,19 +25,22 @@ class SavedPick:
         "#rrggbb", or the name of a colour.
     visible : bool
         Hidden picks are used in the restoration all the same.
+    use : {"constrain", "carry", "ignore"}
+        See `Fault` and `Horizon`.
 
     Raises
     ------
     PickError
         If the name contains an unpaired surrogate.
     SettingError
-        If the colour is invalid.
+        If the colour or the use is invalid.
     """
 
     name: str
     pieces: tuple[Points, ...]
     colour: str | None = None
     visible: bool = True
+    use: str = CONSTRAIN
 
     def __post_init__(self) -> None:
         if any("\ud800" <= letter <= "\udfff" for letter in self.name):
@@ -47,6 +50,7 @@ class SavedPick:
                 f"the colour of {self.name!r} must be #rrggbb or the name of a colour, but is {self.colour!r}",
                 pick=self.name,
             )
+        check_use(self.name, self.use)
 
 
 def saved_pick(pick: Fault | Horizon, style: Mapping[str, Any] | None = None) -> SavedPick:
@@ -58,4 +62,6 @@ def saved_pick(pick: Fault | Horizon, style: Mapping[str, Any] | None = None) ->
             pick=pick.name,
         )
     pieces = (pick.points,) if isinstance(pick, Fault) else pick.pieces
-    return SavedPick(pick.name, tuple(tuple((x, z) for x, z in piece.tolist()) for piece in pieces), **style)
+    return SavedPick(
+        pick.name, tuple(tuple((x, z) for x, z in piece.tolist()) for piece in pieces), **style, use=pick.use
+    )

@@ -145,12 +145,12 @@ class Session:
 
     @property
     def problems(self) -> list[str]:
-        """Reason why each unusable line is left out."""
+        """Reason why each unusable line is left out, or only carried along."""
         return [message for *_, message in self._usable_picks()[1]]
 
     def _usable_picks(self) -> tuple[Interpretation, tuple]:
         kinds = ((FAULT, self.faults), (HORIZON, self.horizons))
-        return usable((kind, pick.name, pick.pieces) for kind, picks in kinds for pick in picks)
+        return usable((kind, pick.name, pick.pieces, pick.use) for kind, picks in kinds for pick in picks)
 
     def open_section(self, *, allow_changed: bool = False) -> Section:
         """Open the section from its source.
