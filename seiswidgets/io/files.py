@@ -82,6 +82,14 @@ def output_path(path: str | PathLike, suffixes: tuple[str, ...]) -> Path:
     return path
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder, and those that it lies in; DataError if that fails."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        raise DataError(f"the folder {folder} cannot be made: {_reason(error)}; choose another") from error
+
+
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
     """Yield a temporary path to write to, which replaces the file only once it is completely on disk.

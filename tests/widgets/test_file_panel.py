@@ -640,7 +640,7 @@ def test_results_say_what_they_need(restored, tmp_path):
     results = restored.files.results
     for folder, stem, match in (
         ("", "", "give the folder for the files"),
-        (str(tmp_path / "none" / "out"), "", "cannot be created"),
+        (str(tmp_path / "none" / "out"), "", "The folder"),
         ("~nobody-of-that-name/out", "", "home"),
         (str(tmp_path), "../up", "a name without folders"),
         (str(tmp_path), "..", "a name without folders"),

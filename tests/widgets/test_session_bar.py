@@ -1,6 +1,8 @@
 import os
+import re
 import time
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import seiswidgets as sw
 from seiswidgets.errors import DataError, SettingError
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io import files
+from seiswidgets.io.session import ownership
 from seiswidgets.io.session.autosave import find_versions, numbered_files
 from seiswidgets.widgets.app import RestorationApp
 from seiswidgets.widgets.files import session_bar
@@ -356,8 +359,10 @@ def test_paths_that_cannot_be_a_sessions_are_refused(new_app, tmp_path):
     app.files.session.path.value = str(tmp_path / "work.json")
     keep_here(app)
     assert app.session_path == tmp_path / "work.json"
-    assert f"Every edit is saved in {tmp_path / 'work.json'}" in app.files.session.notice.text
+    told = re.search(r"the next one in (\S+), and", app.files.session.notice.text)[1]
     draw_fault(app)
+    wait_for(lambda: app.session_bar.is_saved)
+    assert list(numbered_files(tmp_path / "work.json").values()) == [Path(told)]  # the file that was named
     app.session_path = tmp_path / "work.json"
     assert app.session_bar.notice.answers == {}  # about its own work it does not ask
     app.session_path = None
@@ -426,3 +431,63 @@ def test_undoing_a_change_of_section_is_refused_while_the_work_cannot_be_saved(n
     full_disk.clear()
     app.picker.editor.undo()
     assert app.section is section
+
+
+def test_a_missing_folder_is_offered_to_be_made(new_app, tmp_path):
+    app = new_app()
+    app.files.session.path.value = str(tmp_path / "one" / "two" / "work.json")
+    keep_here(app)
+    assert app.session_path is None
+    assert app.files.session.notice.text == f"The folder {tmp_path / 'one' / 'two'} does not exist."
+    app.files.session.notice.answers["Make it"].click()
+    assert app.session_path == tmp_path / "one" / "two" / "work.json"
+
+
+@pytest.fixture
+def other_kernel(monkeypatch, path):
+    """A context in which this process claims a path as another one that lives."""
+
+    def claim_as_other():
+        with monkeypatch.context() as patch:
+            patch.setattr(ownership, "OURS", "other")
+            ownership.claim(path)
+
+    return claim_as_other
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize(("answer", "name"), [("Take over", "work.json"), ("Open a copy", "work-2.json")])
+def test_the_second_of_two_kernels_takes_over_or_opens_a_copy(new_app, path, other_kernel, answer, name):
+    first = new_app(session=path)
+    draw_fault(first)
+    first.close()
+    other_kernel()
+    before = numbered_files(path)
+    second = new_app(session=path)
+    assert "is open in another notebook" in second.session_bar.notice.text
+    draw_fault(second, OTHER)
+    second.wait(LONG)
+    assert numbered_files(path) == before
+    choose(second, answer)
+    if answer == "Take over":
+        choose(second, "Open")
+    assert second.session_path == path.with_name(name)
+    assert [pick.name for pick in second.picker.drawing.picks] == ["F1"]
+    draw_fault(second, OTHER)
+    second.close()
+    assert names(path.with_name(name)) == ["F1", "F2"]
+    assert (ownership.other_owner(path) is None) == (answer == "Take over")
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize(("answer", "name"), [("Take it back", "work.json"), ("Open a copy", "work-2.json")])
+def test_the_first_of_two_kernels_is_told_and_loses_nothing(new_app, path, other_kernel, answer, name):
+    first = new_app(session=path)
+    draw_fault(first)
+    wait_for(lambda: first.session_bar.is_saved)
+    other_kernel()
+    draw_fault(first, OTHER)
+    assert "has taken over" in first.session_bar.notice.text
+    assert names(path) == ["F1"]
+    choose(first, answer)
+    wait_for(lambda: names(path.with_name(name)) == ["F1", "F2"])

@@ -61,6 +61,11 @@ class Autosave:
         again.
     behind, again : float
         Seconds from the first edit to saving it, and between two attempts while saving fails.
+
+    Attributes
+    ----------
+    newest : Path or None
+        The version written last.
     """
 
     def __init__(
@@ -75,6 +80,7 @@ class Autosave:
         self._report, self._behind, self._again = report, behind, again
         self._numbers = sorted(numbered_files(self.path))  # that may be deleted, except the last: others' work
         self._kept = set(self._numbers[-1:])
+        self.newest: Path | None = None
         self._change = threading.Condition()
         self._pending: Saveable | None = None
         self._saved: Saveable | None = None
@@ -152,14 +158,14 @@ class Autosave:
         if session == self._saved:
             return None
         try:
-            present = numbered_files(self.path)
-            number = max(present, default=0) + 1
-            session.save(self.path.with_name(f"{self.path.stem}.{number:06d}{self.path.suffix}"))
+            present, file = numbered_files(self.path), next_version(self.path)
+            session.save(file)
         except DataError as error:
             return error
         except Exception as error:  # noqa: BLE001 - a thread that ends in silence would lose all later work
             return DataError(f"{self.path} cannot be saved: {error}")
-        self._saved = session
+        self._saved, self.newest = session, file
+        number = max(present, default=0) + 1
         self._numbers = [*(old for old in self._numbers if old in present), number]
         expendable = [old for old in self._numbers[:-1] if old not in self._kept]
         for old in expendable[: max(0, len(self._numbers) - self.keep)]:
@@ -202,6 +208,11 @@ def set_aside(path: str | os.PathLike) -> Path | None:
     except OSError as error:
         raise DataError(f"{versions[newest]} cannot be copied to {copy.name}: {error}") from error
     return copy
+
+
+def next_version(path: Path) -> Path:
+    """File that the next version of a path is written to."""
+    return path.with_name(f"{path.stem}.{max(numbered_files(path), default=0) + 1:06d}{path.suffix}")
 
 
 def numbered_files(path: Path) -> dict[int, Path]:

@@ -5,6 +5,8 @@ from pathlib import Path
 
 from ipywidgets import HTML, Button, HBox, Layout, Text, VBox
 
+from seiswidgets.io.files import user_path
+from seiswidgets.io.session.autosave import next_version
 from seiswidgets.widgets.files.picks_files import PicksFiles
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.result_files import ResultFiles
@@ -14,7 +16,7 @@ from seiswidgets.widgets.messages import HINT
 from seiswidgets.widgets.workspace import Workspace
 
 HEADING = "<b>{}</b>"
-SAVED = "Every edit is saved in {} from now on."
+SAVED = "Every edit is saved from now on: the next one in {}, and the last ten versions are kept."
 ASKED = "There is earlier work in {}: choose above the section what to do with it."
 NOT_SAVED = "Edits are not saved any more."
 WHERE = "Files are on the computer that runs the notebook. A path that does not begin with / is relative to {}."
@@ -71,7 +73,7 @@ class SessionFile(VBox):
         self.path = Text(placeholder="folder/name.json; if empty, edits are not saved", layout=layout)
         self.keep_button = Button(description="Save work here", icon="save", layout=Layout(width="auto"))
         super().__init__([HBox([self.path, self.keep_button]), self.notice])
-        self.keep_button.on_click(lambda _: self.notice.attempt(self.keep))
+        self.keep_button.on_click(lambda _: self.notice.attempt(self._keep_or_make))
         session_bar.workspace.observe(lambda change: self._take_path(), "session_path")
         session_bar.notice.observe(lambda change: self.notice.hint(""), "text")  # its question may be answered
         self._take_path()
@@ -85,8 +87,17 @@ class SessionFile(VBox):
             As for `SessionBar.keep`.
         """
         self._bar.keep(self.path.value.strip() or None)
-        text = ASKED if self._bar.notice.answers else SAVED if self._bar.path else NOT_SAVED
-        self.notice.hint(text.format(self._bar.path))
+        path = self._bar.path
+        if path is None:
+            self.notice.hint(NOT_SAVED)
+        else:
+            self.notice.hint(ASKED.format(path) if self._bar.notice.answers else SAVED.format(next_version(path)))
+
+    def _keep_or_make(self) -> None:
+        """Save the work under the path; if its folder is missing, offer to make it."""
+        text = self.path.value.strip()
+        if not text or self.notice.has_folder(user_path(text).absolute().parent, self.keep):
+            self.keep()
 
     def _take_path(self) -> None:
         if self._bar.path is not None:

@@ -120,7 +120,9 @@ class PicksFiles(VBox):
         DataError, SettingError
             As for `write_picks`.
         """
-        path = user_path(self.out.value.strip())
+        path = user_path(self.out.value.strip()).absolute()
+        if not self.notice.has_folder(path.parent, self.write):
+            return
         if path.is_file() and not replace:
             again = partial(self.notice.attempt, partial(self.write, replace=True))
             self.notice.ask(f"{path} exists already.", {REPLACE: again, LEAVE: lambda: None})

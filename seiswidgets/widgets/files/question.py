@@ -2,14 +2,18 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
+from pathlib import Path
 
 from ipywidgets import HTML, Button, HBox, Layout, VBox, Widget
 from traitlets import Unicode
 
 from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.io.files import make_folder
 from seiswidgets.widgets.closing import close_with_parts
 from seiswidgets.widgets.files.labels import in_labels
 from seiswidgets.widgets.messages import HINT, TROUBLE
+
+MAKE, LEAVE = "Make it", "Leave it"
 
 
 class Question(VBox):
@@ -44,6 +48,18 @@ class Question(VBox):
     def alert(self, text: str) -> None:
         """Show an error message in place of the question, with the panel's labels in place of keywords."""
         self._show(TROUBLE, in_labels(text))
+
+    def has_folder(self, folder: Path, then: Callable[[], None]) -> bool:
+        """Return whether a folder exists; if not, offer to make it, and to call a function after that."""
+
+        def make() -> None:
+            make_folder(folder)
+            then()
+
+        if folder.is_dir():
+            return True
+        self.ask(f"The folder {folder} does not exist.", {MAKE: lambda: self.attempt(make), LEAVE: lambda: None})
+        return False
 
     def attempt(self, action: Callable[[], None]) -> None:
         """Call a function and show its error, if it raises one."""

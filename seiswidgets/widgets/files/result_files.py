@@ -11,7 +11,7 @@ from traitlets import Float
 
 from seiswidgets import plot
 from seiswidgets.core.deformation import USUAL_SPAN
-from seiswidgets.errors import DataError, Keyword, SeiswidgetsError, SettingError
+from seiswidgets.errors import Keyword, SeiswidgetsError, SettingError
 from seiswidgets.errors import Text as Message
 from seiswidgets.geology.pick_colours import PickColours
 from seiswidgets.geology.picks import Interpretation
@@ -20,7 +20,7 @@ from seiswidgets.io.exports.meshes import save_mesh
 from seiswidgets.io.exports.reports import save_report
 from seiswidgets.io.exports.sections import save_section
 from seiswidgets.io.exports.xarrays import displacement
-from seiswidgets.io.files import atomic_write, user_path
+from seiswidgets.io.files import atomic_write, make_folder, user_path
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.files.background_job import BackgroundJob, Report
 from seiswidgets.widgets.files.line_map import segy_keywords
@@ -107,7 +107,10 @@ class ResultFiles(VBox):
             raise SettingError("there is no result yet: restore first")
         if not chosen:
             raise SettingError("choose what to export")
-        stem, folder = self._stem(), _make_folder(self.folder.value.strip())
+        stem, folder = self._stem(), self._folder()
+        if not self.notice.has_folder(folder.parent, self.export):
+            return
+        make_folder(folder)
         paths = {ending: folder / f"{stem}-{ending}" for ending in chosen}
         existing = [path.name for path in paths.values() if path.exists()]
         if existing and not replace:
@@ -148,24 +151,18 @@ class ResultFiles(VBox):
             return "Nothing was written."
         return f"Wrote into {self.written[0].parent.absolute()}: {', '.join(path.name for path in self.written)}."
 
+    def _folder(self) -> Path:
+        """The folder that was entered."""
+        if not self.folder.value.strip():
+            raise SettingError("give the folder for the files")
+        return user_path(self.folder.value.strip()).absolute()
+
     def _stem(self) -> str:
         """The name that was entered, or a harmless form of the section's name."""
         given = self.stem.value.strip()
         if given != Path(given).name or given in (".", ".."):
             raise SettingError(f"the name must be a name without folders, but is {given!r}; enter those as the folder")
         return given or safe_name(self._workspace.section.name, "section")
-
-
-def _make_folder(folder: str) -> Path:
-    """Create a folder, if it does not exist."""
-    if not folder:
-        raise SettingError("give the folder for the files")
-    path = user_path(folder)
-    try:
-        path.mkdir(exist_ok=True)
-    except (OSError, ValueError) as error:
-        raise DataError(f"the folder {folder!r} cannot be created: {error}; choose another") from error
-    return path
 
 
 def _write_figure(result: Result, path: Path) -> None:

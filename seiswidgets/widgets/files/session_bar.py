@@ -15,8 +15,9 @@ from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import Drawing
-from seiswidgets.io.files import user_path
-from seiswidgets.io.session.autosave import Autosave, Version, find_versions, numbered_files, set_aside
+from seiswidgets.io.files import user_path, write_file
+from seiswidgets.io.session.autosave import Autosave, Version, find_versions, next_version, numbered_files, set_aside
+from seiswidgets.io.session.ownership import Owner, claim, other_owner, release
 from seiswidgets.io.session.saved_picks import SavedPick
 from seiswidgets.io.session.session import Session, SessionWithSection, source_beside
 from seiswidgets.io.session.sources import FILE, SectionSource, section_path, section_sha256
@@ -28,6 +29,7 @@ from seiswidgets.widgets.workspace import Workspace
 
 OPEN, PICKS_ONLY, START_ANEW = "Open", "Picks only", "Start anew"
 READ, BACK = "Read it", "Back"
+TAKE_OVER, COPY, TAKE_BACK = "Take over", "Open a copy", "Take it back"
 STAYS_IN_MEMORY = "Your edits stay in memory, and are saved as soon as possible."
 UNSAVED = "Nothing is saved until you choose."
 
@@ -102,6 +104,15 @@ class SessionBar(VBox):
             _in_use[path].give_up()
         self.news.hint("")
         self.workspace.session_path, _in_use[path] = path, self
+        owner = other_owner(path)
+        if owner is None:
+            self._continue(path)
+            return
+        answers = {TAKE_OVER: partial(self._continue, path), COPY: partial(self._open_copy, path)}
+        self._ask(f"{path} is open in another notebook ({owner}). {UNSAVED}", answers)
+
+    def _continue(self, path: Path) -> None:
+        """Save under a path, or ask what to do with the earlier work there."""
         versions = find_versions(path)
         if versions:
             self._offer(path, versions)
@@ -117,6 +128,7 @@ class SessionBar(VBox):
         self.workspace.session_path = self._autosave = self._section = None
         if path is not None and _in_use.get(path) is self:
             del _in_use[path]
+            release(path)
         self._runner.drop()
         self.notice.hint("")
         if autosave is not None:
@@ -130,6 +142,32 @@ class SessionBar(VBox):
             self.end()
         self.notice.hint(f"Another app saves its work in {path} now; this one no longer does.")
 
+    def _open_copy(self, path: Path) -> None:
+        """Continue the newest work under a path, or the present work, under another name."""
+        copy = _free_path(path)
+        versions = find_versions(path)
+        if not versions:
+            self.keep(copy)
+            return
+        try:
+            write_file(next_version(copy), versions[0].path.read_bytes())
+        except (DataError, OSError) as error:
+            self._ask_again(str(error))
+            return
+        self.keep(copy)
+        self._open()
+
+    def _lose(self, path: Path, owner: Owner) -> None:
+        """Stop saving under a path that another process has taken over, and offer to continue elsewhere."""
+        with contextlib.suppress(DataError):  # the copy, or the path taken back, gets all edits
+            self.end()
+        answers = {COPY: partial(self.keep, _free_path(path)), TAKE_BACK: partial(self._take_back, path)}
+        self._ask(f"Another notebook has taken over {path} ({owner}): nothing is saved here any more.", answers)
+
+    def _take_back(self, path: Path) -> None:
+        self.workspace.session_path, _in_use[path] = path, self
+        self._begin(path)
+
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is being opened; False after the timeout in seconds."""
         return self._runner.wait(timeout)
@@ -137,6 +175,7 @@ class SessionBar(VBox):
     def _begin(self, path: Path) -> None:
         """Save the present section's work under a path from now on."""
         self.workspace.session_path, _in_use[path] = path, self
+        claim(path)
         self._section, self._has_work = self.workspace.section, False
         self._sha256 = section_sha256(self._section)
         self._autosave = Autosave(path, report=partial(self._report, path))
@@ -146,7 +185,10 @@ class SessionBar(VBox):
         path = self.path
         if path is None or self._section is None:
             return
-        if self.workspace.section is not self._section:
+        owner = other_owner(path)
+        if owner is not None:
+            self._lose(path, owner)
+        elif self.workspace.section is not self._section:
             self._begin(path)
             self.notice.hint(f"The work on the other section stays in {self._aside}." if self._aside else "")
         else:
@@ -182,7 +224,8 @@ class SessionBar(VBox):
     def _report(self, path: Path, error: DataError | None) -> None:
         """Show that saving fails, or works again; called on the thread that saves."""
         if error is None:
-            self.news.hint(f"Saved again in {path}.")
+            written = self._autosave and self._autosave.newest
+            self.news.hint(f"Saved again in {written or path}.")
         else:
             self.news.alert(Text(error.text, ". ", STAYS_IN_MEMORY))
 
@@ -190,7 +233,7 @@ class SessionBar(VBox):
         self.versions.options = [(_summary(version), version) for version in versions]
         self.versions.value = versions[0]
         answers: Answers = {OPEN: self._open, PICKS_ONLY: self._open_picks, START_ANEW: partial(self._start_anew, path)}
-        self._ask(f"{path} holds earlier work. {UNSAVED}", answers, self.versions)
+        self._ask(f"{versions[0].path} holds earlier work. {UNSAVED}", answers, self.versions)
 
     def _ask(self, text: str, answers: Answers, *before: Widget) -> None:
         self._question = text, answers, before
@@ -264,6 +307,12 @@ def _checked(path: str | PathLike) -> Path:
     if not path.parent.is_dir():
         raise DataError(f"the folder {path.parent} does not exist; make it, or choose another")
     return path
+
+
+def _free_path(path: Path) -> Path:
+    """First of ``name-2.json``, ``name-3.json``, ... under which nothing is saved."""
+    paths = (path.with_name(f"{path.stem}-{count}{path.suffix}") for count in range(2, 10**6))
+    return next(free for free in paths if not (free.exists() or numbered_files(free) or free in _in_use))
 
 
 def _summary(version: Version) -> str:
