@@ -1,5 +1,6 @@
 """Contact of the two sides of a fault: the term of the energy that lets one slide along the other."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -8,6 +9,7 @@ import shapely
 from scipy.sparse import csr_array
 from shapely import LineString
 
+from seiswidgets.core.junctions import NOTHING, Continuation
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.term import MOVING, PaperTerm
 from seiswidgets.core.terms import coordinates, sparse_rows
@@ -75,13 +77,17 @@ class Contact(PaperTerm):
     points : array, shape (p,)
         The vertices of one side.
     segments : array, shape (s, 2)
-        The other side, as directed pairs of vertices.
+        The other side, as directed pairs of vertices, then segments of other faults that continue it.
     lift : array, shape (p,)
         Bulge of the smooth fault at each point.
     bulge : array, shape (s, 3)
         Bulge along each segment, as coefficients of 1, s and s^2.
     count : int
         Number of vertices of the mesh.
+    own : int
+        Number of segments of the other side.
+    continued : array
+        The vertices at which other segments continue it.
     partner, former, stay : arrays, shape (p,)
         The segment that each point is held to (-1 for none), the previous one, and the distance beyond its end, in
         segment lengths, up to which a point is still held to it; empty until chosen by ``with_contacts``.
@@ -92,6 +98,8 @@ class Contact(PaperTerm):
     lift: np.ndarray
     bulge: np.ndarray
     count: int
+    own: int
+    continued: np.ndarray
     weight: float = 1.0
     name: str = "contact"
     partner: np.ndarray = field(default_factory=_unchosen)
@@ -114,23 +122,35 @@ class Contact(PaperTerm):
 
         A partner is kept while the point's foot is on it or a little beyond. That margin doubles each time a point
         returns to the partner it has just left: otherwise two segments of a bent fault could alternate for ever.
+        Points beyond an end of their own fault are held to the nearest segment of those that continue it, if any.
         """
         along, _, _, _ = self._feet(vertices, self.points[:, None], self.segments[None])
         clipped = np.clip(along, 0, 1)
         start, stop = vertices[self.segments[:, 0]], vertices[self.segments[:, 1]]
         away = vertices[self.points][:, None] - start - clipped[..., None] * (stop - start)
-        nearest = np.argmin(np.sum(away**2, axis=2), axis=1)
-        row = np.arange(len(self.points))
-        if not self._chosen:
-            return self._hold(self._unless_beyond(nearest, along, STAY))
-        kept = (self.partner >= 0) & (np.abs(along - clipped)[row, self.partner] < self.stay)
-        return self._hold(self._unless_beyond(np.where(kept, self.partner, nearest), along, self.stay))
+        squared, past = np.sum(away**2, axis=2), np.abs(along - clipped)
+        partner, end = self._choose(slice(0, self.own), along, past, squared)
+        if len(self.continued):
+            continuing, _ = self._choose(slice(self.own, None), along, past, squared)
+            partner = np.where(np.isin(end, self.continued), continuing, partner)
+        return self._hold(partner)
 
-    def _unless_beyond(self, nearest: np.ndarray, along: np.ndarray, stay: float | np.ndarray) -> np.ndarray:
-        """Partners, -1 for points that lie beyond an end of the polyline."""
-        along, ends = along[np.arange(len(nearest)), nearest], self._open[nearest]
+    def _choose(
+        self, among: slice, along: np.ndarray, past: np.ndarray, squared: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Index of the segment, of some, that each point is held to, or -1 and the end of theirs that it is beyond."""
+        nearest = np.argmin(squared[:, among], axis=1) + among.start
+        stay: float | np.ndarray = STAY
+        if self._chosen:
+            stay = self.stay
+            eligible = (self.partner >= among.start) & (self.partner < (among.stop or len(self.segments)))
+            kept = eligible & (past[np.arange(len(nearest)), self.partner] < stay)
+            nearest = np.where(kept, self.partner, nearest)
+        foot, ends = along[np.arange(len(nearest)), nearest], self._open[nearest]
         reach = stay - STAY + 1e-9
-        return np.where((ends[:, 0] & (along < -reach)) | (ends[:, 1] & (along > 1 + reach)), -1, nearest)
+        first, last = ends[:, 0] & (foot < -reach), ends[:, 1] & (foot > 1 + reach)
+        end = np.where(first, self.segments[nearest, 0], np.where(last, self.segments[nearest, 1], -1))
+        return np.where(end < 0, nearest, -1), end
 
     def _hold(self, partner: np.ndarray) -> "Contact":
         if not self._chosen:
@@ -205,7 +225,14 @@ class Contact(PaperTerm):
         return np.asarray(self.weight * target)
 
 
-def contacts(mesh: Mesh, sides: np.ndarray, line: LineString, weight: float, name: str) -> tuple[Contact, Contact]:
+def contacts(
+    mesh: Mesh,
+    sides: np.ndarray,
+    line: LineString,
+    weight: float,
+    name: str,
+    beyond: Sequence[Continuation] = (NOTHING, NOTHING),
+) -> tuple[Contact, Contact]:
     """Contact of each side of a fault with the other: errors at the corners of one side cancel those of the other.
 
     Parameters
@@ -216,16 +243,20 @@ def contacts(mesh: Mesh, sides: np.ndarray, line: LineString, weight: float, nam
         Both copies of the fault's edges, in order.
     line : shapely LineString
         The fault as drawn.
+    beyond : pair of Continuation
+        For points of the first and of the second side.
     """
     arc_lengths = shapely.line_locate_point(line, shapely.points(mesh.vertices[sides]))
     curve = Bulge(line)
     bulge = curve.parabola(*arc_lengths[0].T)
 
-    def contact(side: np.ndarray, other: np.ndarray) -> Contact:
+    def contact(side: np.ndarray, other: np.ndarray, beyond: Continuation) -> Contact:
         points, first = np.unique(side, return_index=True)
         apart = ~np.isin(points, other)  # a tip belongs to both sides
         arc_length = arc_lengths[0].ravel()[first[apart]]
         lift = curve.parabola(arc_length, arc_length)[:, 0]
-        return Contact(points[apart], other, lift, bulge, len(mesh.vertices), weight, name)
+        segments, bulges = np.vstack([other, beyond.segments]), np.vstack([bulge, np.zeros((len(beyond.segments), 3))])
+        corners = np.array(beyond.corners, int)
+        return Contact(points[apart], segments, lift, bulges, len(mesh.vertices), len(other), corners, weight, name)
 
-    return contact(sides[0], sides[1]), contact(sides[1], sides[0])
+    return contact(sides[0], sides[1], beyond[0]), contact(sides[1], sides[0], beyond[1])

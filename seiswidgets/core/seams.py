@@ -51,7 +51,7 @@ def _positions_on_master(vertices: np.ndarray, slave: np.ndarray, master: np.nda
     """Position of each vertex of the slave along the master, in segments; NaN beyond the master's ends."""
     points = np.setdiff1d(slave, master)
     unbent = np.zeros(len(points)), np.zeros((len(master), 3))
-    contact = Contact(points, master, *unbent, len(vertices)).with_contacts(vertices)
+    contact = Contact(points, master, *unbent, len(vertices), len(master), np.empty(0, int)).with_contacts(vertices)
     held = contact.partner >= 0
     start, stop = (vertices[master[contact.partner[held], k]] for k in (0, 1))
     along = stop - start

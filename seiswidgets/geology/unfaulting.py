@@ -10,6 +10,7 @@ import numpy as np
 from shapely import LineString
 
 from seiswidgets.core.contact import Contact, contacts
+from seiswidgets.core.junctions import Continuation, continuations
 from seiswidgets.core.mesh import Cut, Mesh, edge_keys
 from seiswidgets.core.point_location import triangle_at
 from seiswidgets.core.rigid import nearest_rigid, rigid_blocks
@@ -47,6 +48,8 @@ class Blocks:
     cut : Cut
     sides : dict of str to array, shape (2, s, 2)
         Both copies of each fault's edges.
+    beyond : list of (Continuation, Continuation)
+        For each fault, the sides of others that continue its own.
     network : PickNetwork
     cutoffs : list of CutOffPair
     stitches : array, shape (c, 2)
@@ -63,6 +66,7 @@ class Blocks:
 
     cut: Cut
     sides: dict[str, np.ndarray]
+    beyond: list[tuple[Continuation, Continuation]]
     network: PickNetwork
     cutoffs: list[CutOffPair]
     stitches: np.ndarray
@@ -169,7 +173,10 @@ def _mesh_blocks(
     }
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, network)
-    return Blocks(cut, sides, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint, ends)
+    beyond = continuations(whole.vertices, list(edges.values()), list(sides.values()))
+    return Blocks(
+        cut, sides, beyond, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint, ends
+    )
 
 
 def _network(
@@ -280,8 +287,8 @@ def _terms(blocks: Blocks, weights: Weights) -> list[Term]:
         Stitch(pairs, len(mesh.vertices), weights.stitch * blocks.reach),
         *(
             term
-            for name, sides in blocks.sides.items()
-            for term in contacts(mesh, sides, blocks.network.faults[name], weights.slide, "contact")
+            for (name, sides), beyond in zip(blocks.sides.items(), blocks.beyond, strict=True)
+            for term in contacts(mesh, sides, blocks.network.faults[name], weights.slide, "contact", beyond)
         ),
         AreaBarrier(mesh),
     ]

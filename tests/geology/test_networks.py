@@ -76,3 +76,13 @@ def test_boundaries_are_faults():
     with pytest.raises(sw.PickError, match="expected a fault"):
         sw.Restoration(SECTION).unfault(fault, boundaries=sw.Horizon([(0, 0), (1, 1)]))
     assert np.isfinite(fault.points).all()
+
+
+@pytest.mark.parametrize("faults", [2, 3])
+def test_imbricate_thrusts_settle_without_rock_on_rock(faults):
+    case = sw.synthetic.thrust(faults=faults)
+    picks = case.interpretation
+    (stage,) = sw.Restoration(case.section, spacing=120).unfault(picks.faults, picks.horizons, fixed=case.fixed).stages
+    assert stage.report.converged
+    assert not [finding for finding in stage.report.findings if finding.kind == "overlap"]
+    assert max(cutoff.misfit for cutoff in stage.report.cutoffs) < 0.1 * case.section.dz
