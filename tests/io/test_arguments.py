@@ -52,7 +52,7 @@ def test_what_is_no_path_is_told(act, path):
         ),
         (lambda path: sw.displacement(SECTION), "restored must be a Restoration"),
         (lambda path: sw.to_xarray(restored()), "section must be a Section, but is a Restoration"),
-        (lambda path: sw.SectionSource("synthetic", None), "must be one of planar_fault.* but is None"),
+        (lambda path: sw.SectionSource("synthetic", None), "must be one of .*planar_fault.*, but is None"),
         (lambda path: sw.SectionSource("file", path, ["dx"]), "choices must be a Mapping, but is a list"),
         (lambda path: sw.Session("line.sgy", None), "source must be a SectionSource, but is a str"),
         (lambda path: sw.Session(SOURCE, None, plan=["unfault"]), "plan must be a Plan, but is a list"),
