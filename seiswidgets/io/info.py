@@ -32,6 +32,10 @@ class SectionInfo:
     x_unit : str or None
     inlines, crosslines : (first, last, count) or None
         Lines of a volume.
+    offsets : (first, last, count) or None
+        Offsets of traces before stack, of which one must be chosen.
+    sample_formats : tuple of str
+        If the sample format is doubtful: the likely one, and the one that the header states.
     header : str
         SEG-Y's textual header, decoded. Untrusted text: escape it wherever it is shown.
     findings : tuple of Finding
@@ -51,6 +55,8 @@ class SectionInfo:
     x_unit: str | None = None
     inlines: tuple[int, int, int] | None = None
     crosslines: tuple[int, int, int] | None = None
+    offsets: tuple[int, int, int] | None = None
+    sample_formats: tuple[str, ...] = ()
     header: str = ""
     findings: tuple[Finding, ...] = ()
 
@@ -62,7 +68,8 @@ class SectionInfo:
             f"{self.kind} ({self.format}), {readable_size(self.size)}",
             f"{traces:,} traces of {samples:,} samples",
         ]
-        for name, lines in (("inlines", self.inlines), ("crosslines", self.crosslines)):
+        for name in ("inlines", "crosslines", "offsets"):
+            lines = getattr(self, name)
             texts += [f"{lines[2]:,} {name}, {lines[0]} to {lines[1]}"] if lines else []
         where = " along the first line" if self.inlines else ""
         texts += [f"traces {self.dx:g} {self.x_unit} apart{where}"] if self.dx is not None else []

@@ -1,6 +1,6 @@
 """Opening and previewing section files of every supported format."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
@@ -11,7 +11,7 @@ from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.files import existing_file
 from seiswidgets.io.info import SectionInfo
-from seiswidgets.io.options import DAMAGED, OpenKeywords, OpenOptions, Progress, report_progress
+from seiswidgets.io.options import DAMAGED, LayoutKeywords, OpenKeywords, OpenOptions, Progress, report_progress
 from seiswidgets.io.rasters.arrays import open_array, open_text, preview_array, preview_text
 from seiswidgets.io.rasters.images import open_picture, preview_picture
 from seiswidgets.io.segy.layout import begins_like_segy
@@ -79,12 +79,22 @@ def open_section(path: str | PathLike, *, progress: Progress | None = None, **op
     name, credit : str, optional
         As in ``Section``; the name defaults to the file's name.
     inline, crossline : int, optional
-        Number of the line to take from a SEG-Y volume.
+        Number of the line to take from a SEG-Y volume; columns without a trace become NaN.
+    offset : int, optional
+        Offset of the traces to take from a SEG-Y file before stack.
     traces : slice or range, optional
         Traces to take from a SEG-Y file, counted from 0, whichever line they belong to.
     header_bytes : dict, optional
-        Positions in SEG-Y's trace header, counted from byte 1, of "x", "y", "scalar" (for both), "inline" and
-        "crossline"; by default 181, 185, 71, 189 and 193, as in the standard.
+        Positions in SEG-Y's trace header, counted from byte 1, of "x", "y", "scalar" (for both), "inline", "crossline"
+        and "offset"; by default 181, 185, 71, 189, 193 and 37, as in the standard. A tuple adds width and kind, as in
+        ``{"x": (181, "f4"), "inline": (17, "i2")}``: i2, u2, i4, u4, f4, f8 or ibm.
+    sample_format : str or int, optional
+        Format of SEG-Y's samples if the header does not state the true one: "ibm", "ieee", "f4", "f8", "i1", "i2",
+        "i4", "u1", "u2", "u4", or the standard's code; "<i2" and ">i2" give their byte order too.
+    byte_order : {"big", "little"}, optional
+        Byte order of a SEG-Y file.
+    revision : {0, 1, 2}, optional
+        Revision of the SEG-Y standard that a file follows, which says what some bytes mean.
 
     Raises
     ------
@@ -105,13 +115,13 @@ def open_section(path: str | PathLike, *, progress: Progress | None = None, **op
 
 
 @strict_keywords
-def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = None) -> SectionInfo:
+def preview(path: str | PathLike, **options: Unpack[LayoutKeywords]) -> SectionInfo:
     """Summarise a section file and the options that it needs, without reading all of it.
 
     Parameters
     ----------
     path : str or Path
-    header_bytes : dict, optional
+    header_bytes, sample_format, byte_order, revision
         For SEG-Y, as for ``open_section``.
 
     Raises
@@ -119,9 +129,9 @@ def preview(path: str | PathLike, *, header_bytes: Mapping[str, int] | None = No
     DataError, SettingError
         As for ``open_section``.
     """
-    path = existing_file(path)
+    path, checked = existing_file(path), OpenOptions(**options)
     with _read_errors_as_data_errors(path):
-        return READERS[_kind(path)].preview(path, OpenOptions(header_bytes=header_bytes))
+        return READERS[_kind(path)].preview(path, checked)
 
 
 def kind_of(path: str | PathLike) -> str:

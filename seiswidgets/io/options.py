@@ -13,7 +13,8 @@ from seiswidgets.geology.section import SECONDS, Section
 from seiswidgets.geology.validation import finite_number
 
 Progress = Callable[[float], bool | None]
-SEGY_OPTIONS = ("inline", "crossline", "traces", "header_bytes")
+LAYOUT_OPTIONS = ("header_bytes", "sample_format", "byte_order", "revision")  # of SEG-Y
+SEGY_OPTIONS = ("inline", "crossline", "offset", "traces", *LAYOUT_OPTIONS)
 AXIS_OPTIONS = ("dx", "dz", "x0", "z0")
 DAMAGED = (  # raised by other libraries' readers on damaged files; some of them are surprising
     ArithmeticError,
@@ -28,19 +29,28 @@ DAMAGED = (  # raised by other libraries' readers on damaged files; some of them
 MOST_BYTES = 2**30  # for the amplitudes of one section
 EXPECTED_TYPES: dict[str, tuple[Any, str]] = {  # of the options that are checked nowhere else
     **dict.fromkeys(("x_unit", "z_unit", "name", "credit"), (str, "a string")),
-    **dict.fromkeys(("inline", "crossline"), (Integral, "a whole number")),
+    **dict.fromkeys(("inline", "crossline", "offset"), (Integral, "a whole number")),
     "traces": ((slice, range), "a slice or a range"),
     "header_bytes": (Mapping, 'a dictionary such as {"x": 73, "y": 77}'),
 }
 
 
-class LineKeywords(TypedDict, total=False):
+class LayoutKeywords(TypedDict, total=False):
+    """Keywords that correct the headers of a SEG-Y file, described at ``open_section``."""
+
+    header_bytes: Mapping[str, int | tuple[int, str]] | None
+    sample_format: str | int | None
+    byte_order: str | None
+    revision: int | None
+
+
+class LineKeywords(LayoutKeywords, total=False):
     """Keywords that select a line of a SEG-Y file, described at ``open_section``."""
 
     inline: int | None
     crossline: int | None
+    offset: int | None
     traces: slice | range | None
-    header_bytes: Mapping[str, int] | None
 
 
 class OpenKeywords(LineKeywords, total=False):

@@ -3,7 +3,7 @@
 import numpy as np
 
 KINDS = {2: "i4", 3: "i2", 5: "f4", 6: "f8", 8: "i1", 10: "u4", 11: "u2", 16: "u1"}
-SIZES = {17: 4, 21: 4, 73: 4, 77: 4, 81: 4, 85: 4, 181: 4, 185: 4, 189: 4, 193: 4, 9: 4}  # all others take 2
+SIZES = {17: 4, 21: 4, 73: 4, 77: 4, 81: 4, 85: 4, 181: 4, 185: 4, 189: 4, 193: 4, 9: 4, 37: 4}  # all others take 2
 
 
 def segy_bytes(traces, headers, code=5, endian="big", interval=4000, binary=None, text=None):

@@ -68,16 +68,18 @@ def test_spacings_that_are_none(tmp_path, chosen):
         sw.open_section(tmp_path / "line.npy", z_unit="m", **chosen)
 
 
-def test_a_missing_package_is_named(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "segyio", None)
-    with pytest.raises(sw.DataError, match=r"line.sgy requires .* segyio.*pip install segyio.*seiswidgets\[files\]"):
-        sw.save_section(sw.Section(np.ones((2, 3)), 25, 4), tmp_path / "line.sgy")
+def test_a_missing_package_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(sw.DataError, match=r"requires .* xarray.*pip install xarray.*seiswidgets\[files\]"):
+        sw.to_xarray(sw.Section(np.ones((2, 3)), 25, 4))
 
 
-def test_segy_is_read_without_segyio(tmp_path, monkeypatch):
+def test_segy_is_read_and_written_without_segyio(tmp_path, monkeypatch):
     (tmp_path / "line.sgy").write_bytes(segy_bytes(np.ones((2, 3)), straight(2)))
     monkeypatch.setitem(sys.modules, "segyio", None)
-    assert sw.open_section(tmp_path / "line.sgy", z_unit="m").shape == (3, 2)
+    section = sw.open_section(tmp_path / "line.sgy", z_unit="m")
+    sw.save_section(section, tmp_path / "again.sgy", like=tmp_path / "line.sgy")
+    assert sw.open_section(tmp_path / "again.sgy", z_unit="m").shape == (3, 2)
 
 
 def test_no_file_stays_open(tmp_path):

@@ -210,10 +210,10 @@ def test_something_else_is_refused(tmp_path):
         sw.save_section(np.ones((2, 2)), tmp_path / "line.npz")
 
 
-@pytest.mark.parametrize("like", [None, "big", "little"])
+@pytest.mark.parametrize("like", [None, "big", "little", "revision 0"])
 def test_segy_has_the_bytes_of_revision_1_whatever_it_comes_from(tmp_path, like):
     if like is not None:
-        binary = {3501: 0x100, 3505: 0}
+        binary = dict.fromkeys(range(3501, 3600, 2), 0x2020) if like == "revision 0" else {3501: 0x100, 3505: 0}
         endian = "little" if like == "little" else "big"
         (tmp_path / "like.sgy").write_bytes(segy_bytes(np.ones((9, 8)), straight(9), 5, endian, binary=binary))
         section, choices = sw.open_section(tmp_path / "like.sgy", velocity=2000), {"like": tmp_path / "like.sgy"}

@@ -132,7 +132,7 @@ def test_what_is_chosen_counts_over_the_headers(save):
 @pytest.mark.parametrize(("scalar", "dx"), [(0, 50), (1, 50), (-100, 0.5), (-10, 5), (-1, 50)])
 def test_a_negative_scalar_divides_positions_and_a_positive_one_multiplies_them(save, scalar, dx):
     headers = [{181: 30 * n, 185: 40 * n, 71: scalar} for n in range(3)]
-    assert sw.open_section(save(RAMP, headers), z_unit="m").dx == pytest.approx(dx)
+    assert sw.open_section(save(RAMP, headers, interval=500), z_unit="m").dx == pytest.approx(dx)
     assert sw.preview(save(RAMP, [{181: 3 * n, 185: 4 * n, 71: 10} for n in range(3)])).dx == 50
 
 

@@ -126,9 +126,26 @@ def test_spacings_that_no_survey_has_are_refused(save, headers, said):
 
 
 @pytest.mark.parametrize(
+    ("headers", "interval", "dx", "said"),
+    [
+        (line(25, scalar=-10), 4000, 2.5, "the scalar does not apply, the traces are 25 apart: dx=25"),
+        (line(12, scalar=-10), 2000, 1.2, "the traces are 12 apart: dx=12"),
+        (line(50, scalar=-10), 4000, 5, "the traces are 50 apart: dx=50"),
+        (line(50, 1000, 500, scalar=-100), 4000, 0.5, "the traces are 50 apart: dx=50"),
+    ],
+)
+def test_scalars_that_make_traces_too_close_are_questioned(save, headers, interval, dx, said):
+    path = save(headers, interval=interval)
+    refused(path, rf"{said};.* If it does apply, give dx={dx:g}$", dx=dx)
+
+
+@pytest.mark.parametrize(
     ("headers", "choices", "dx"),
     [
         (line(50), {}, 50),  # regional
+        (line(32, 10 * EAST, 10 * NORTH, scalar=-10), {"interval": 1000}, 3.2),
+        (line(250, 1000, 500, scalar=-100), {"interval": 2000}, 2.5),
+        (line(62, 10 * 71_000, 10 * 398_000, scalar=-10), {}, 6.2),  # of a small country's map
         (line(100), {}, 100),
         (line(50, 100 * EAST, 100 * NORTH, scalar=-100), {"interval": 250}, 0.5),  # of a boomer
         (line(100, 1000 * EAST, 1_478_000_000, scalar=-1000), {"interval": 100}, 0.1),  # ultra-high resolution
@@ -323,6 +340,14 @@ def test_bytes_that_revision_0_leaves_free_are_not_read(save, free):
     assert (opened(path).shape, opened(path).dx, opened(path).dz) == ((8, COUNT), 25, 4)
 
 
+@pytest.mark.parametrize("tail", [b"\x1a", b"END OF FILE".ljust(80), bytes(range(1, 201)) * 3])
+def test_other_bytes_behind_the_last_trace_are_ignored_too(save, tail):
+    path = save([header | {115: 2000} for header in straight(3)], samples=2000)
+    path.write_bytes(path.read_bytes() + tail)
+    assert opened(path).shape == (2000, 3)
+    assert sw.preview(path).findings[0].text == f"{len(tail)} bytes of another kind after the last trace are ignored"
+
+
 @pytest.mark.parametrize("count", [1, 512, 5000])
 def test_zeros_behind_the_last_trace_are_ignored_if_trace_headers_confirm(save, count):
     path = save([header | {115: 2000} for header in straight(3)], samples=2000)
@@ -396,3 +421,78 @@ def test_gathers_of_a_volume_are_no_line(save, inlines, crosslines, fold):
 def test_a_line_across_a_grid_is_no_volume(save, inline, crossline):
     path = save([header | {189: inline(n), 193: crossline(n)} for n, header in enumerate(line())])
     assert opened(path).dx == 25
+
+
+def volume_at(inline, crossline):
+    return {189: inline, 193: crossline, 181: 400_000 + 25 * crossline, 185: 6_000_000 + 25 * inline, 71: 1}
+
+
+@pytest.mark.parametrize("missing", [{25}, {25, 26, 30}, {21, 38}])
+@pytest.mark.parametrize("step", [1, 3])
+def test_missing_traces_of_a_line_of_a_volume_leave_gaps(save, missing, step):
+    places = [(i, step * x) for i in (1, 2, 3) for x in range(20, 40) if not (i == 2 and x in missing)]
+    path = save([volume_at(*place) for place in places])
+    section = opened(path, inline=2)
+    assert (section.shape, section.dx) == ((8, 20), 25 * step)
+    assert set(20 + np.flatnonzero(np.isnan(section.amplitude).all(axis=0))) == missing
+    assert opened(path, inline=1).shape == (8, 20)
+    assert not np.isnan(opened(path, crossline=20 * step).amplitude).any()
+
+
+def test_headers_of_a_line_with_gaps_are_continued(save, tmp_path):
+    places = [(i, x) for i in (1, 2) for x in range(20, 30) if (i, x) != (2, 25)]
+    path = save([volume_at(*place) for place in places])
+    sw.save_section(opened(path, inline=2), tmp_path / "out.sgy", like=path, inline=2)
+    again = opened(tmp_path / "out.sgy")
+    assert (again.shape, again.dx) == ((8, 10), 25)
+
+
+@pytest.mark.parametrize("slowest", ["place", "offset"])
+@pytest.mark.parametrize("offsets", [(100, 200, 300), (-50, 0, 50), range(25, 625, 25)])
+@pytest.mark.parametrize("is_volume", [True, False])
+def test_traces_before_stack_need_an_offset(save, slowest, offsets, is_volume):
+    inlines = (1, 2) if is_volume else (0,)
+    places = [(i, x, o) for i in inlines for x in range(20, 30) for o in offsets]
+    places.sort(key=(lambda place: place[2]) if slowest == "offset" else lambda place: 0)
+    headers = [volume_at(i, x) | {37: o} for i, x, o in places]
+    if not is_volume:
+        headers = [header | {189: 0, 193: 0, 21: header[193]} for header in headers]
+    path, chosen = save(headers), {"inline": 2} if is_volume else {}
+    match = f"before stack, of {len(offsets)} offsets: {offsets[0]}, .*choose one with offset="
+    for more in ({}, {"dx": 25}):
+        with pytest.raises(sw.SettingError, match=match):
+            opened(path, **chosen, **more)
+    info = sw.preview(path)
+    assert info.offsets == (offsets[0], offsets[-1], len(offsets))
+    assert "offset" in info.needed
+    assert info.dx == 25
+    section = opened(path, **chosen, offset=offsets[1])
+    assert (section.shape, section.dx) == ((8, 10), 25)
+    with pytest.raises(sw.SettingError, match=r"but 0 traces of offset 7; choose one"):
+        opened(path, **chosen, offset=7)
+
+
+def test_offsets_of_a_stacked_line_are_not_asked_for(save):
+    path = save([header | {37: 25 * n} for n, header in enumerate(line())])
+    assert opened(path).dx == 25
+    assert sw.preview(path).offsets is None
+
+
+def test_several_traces_at_one_place_are_refused(save):
+    path = save([volume_at(i, x) for i in (1, 2) for x in range(20, 30) for _ in range(2)])
+    with pytest.raises(sw.SettingError, match=r"several traces at one place .* choose them with traces="):
+        opened(path, inline=2, dx=25)
+
+
+@pytest.mark.parametrize(
+    "padding", [lambda i, x: {189: i, 193: x, 29: 2}, lambda i, x: {29: 2}, lambda i, x: {189: i, 193: x}]
+)
+def test_traces_that_pad_a_volume_are_left_out(tmp_path, padding):
+    places = [(i, x) for i in (1, 2, 3) for x in range(20, 40)]
+    headers = [volume_at(i, x) if 22 <= x < 36 else padding(i, x) for i, x in places]
+    traces = np.array([np.ones(8) if header.get(181) else np.zeros(8) for header in headers])
+    (tmp_path / "volume.sgy").write_bytes(segy_bytes(traces, headers))
+    section = opened(tmp_path / "volume.sgy", inline=2)
+    assert (section.shape, section.dx) == ((8, 14), 25)
+    info = sw.preview(tmp_path / "volume.sgy")
+    assert (info.inlines, info.dx) == ((1, 3, 3), 25)

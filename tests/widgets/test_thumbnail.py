@@ -15,7 +15,7 @@ from tests.widgets.files import volume
 
 def seen(path, progress=lambda share: True):
     """The grey picture of a file, and what is said of it."""
-    html = thumbnail(sw.preview(path), None, progress)
+    html = thumbnail(sw.preview(path), {}, progress)
     said, png = re.fullmatch(r'<img alt="(.*?)" .* src="data:image/png;base64,(.*?)">', html).groups()
     return np.asarray(Image.open(BytesIO(b64decode(png))).convert("L")), said
 
@@ -57,10 +57,10 @@ def test_what_takes_long_is_not_seen_and_a_user_may_not_want_to_wait(tmp_path, m
     with pytest.raises(sw.Cancelled, match="opening the file was cancelled"):
         seen(path, lambda share: False)
     monkeypatch.setattr(module, "LARGEST", path.stat().st_size - 1)
-    assert thumbnail(sw.preview(path), None, lambda share: True) == ""
+    assert thumbnail(sw.preview(path), {}, lambda share: True) == ""
 
 
 def test_what_cannot_be_opened_is_not_seen(tmp_path):
     path = tmp_path / "line.npy"
     np.save(path, np.full((4, 6), np.nan))
-    assert thumbnail(sw.preview(path), None, lambda share: True) == ""
+    assert thumbnail(sw.preview(path), {}, lambda share: True) == ""

@@ -42,7 +42,7 @@ def save_section(
     like : str or Path, optional
         For SEG-Y: the file that the original was opened from, whose headers are copied. Traces beyond its ends continue
         the numbers and positions of its line.
-    inline, crossline, traces, header_bytes, x0
+    x0, **line
         Line of ``like``, as given to ``open_section``.
 
     Raises

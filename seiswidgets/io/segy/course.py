@@ -5,6 +5,7 @@ import numpy as np
 from seiswidgets.errors import DataError, Keyword, Text
 from seiswidgets.geology.findings import Finding
 from seiswidgets.io.segy.doubts import LONGEST, SPACINGS, WIDE, are_degrees, remedy, rounded
+from seiswidgets.io.segy.lines import Line
 from seiswidgets.io.segy.positions import INTEGERS, POSITION_BYTES, Positions, conflict, positions, scale_of
 from seiswidgets.io.segy.traces import TraceHeaders
 
@@ -18,12 +19,12 @@ CHOOSE_LINE = (Keyword("inline"), ", ", Keyword("crossline"), " or ", Keyword("t
 GIVE_DX = Text("give the distance between traces: ", DX)
 
 
-def spacing(headers: TraceHeaders, traces: np.ndarray) -> float:
-    """Distance between the traces of a line, in the unit of their positions; errors as for ``course``."""
-    return _length(course(headers, traces)) / (len(traces) - 1)
+def spacing(headers: TraceHeaders, line: Line) -> float:
+    """Distance between the columns of a line, in the unit of the positions; errors as for ``course``."""
+    return _length(course(headers, line)) / (line.width - 1)
 
 
-def course(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
+def course(headers: TraceHeaders, line: Line) -> np.ndarray:
     """Map positions along a line, in their own unit, shape (m, 2).
 
     A straight line is reduced to its ends, because rounded positions between them would make it longer.
@@ -33,6 +34,7 @@ def course(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
     DataError
         If positions are missing, angles, unevenly spaced or implausible, or if the line turns back.
     """
+    traces = line.traces
     _refuse_angles(headers, traces)
     found = positions(headers, traces)
     if not found.steps.any():
@@ -40,10 +42,11 @@ def course(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
     _refuse_conflict(headers, traces, found)
     _refuse_undeclared_angles(headers, traces, found)
     _refuse_beyond_maps(headers, traces, found)
-    _refuse_uneven(headers, traces, found)
-    _refuse_turning_back(headers, traces, found)
+    found = found.at(line.columns)
+    _refuse_uneven(headers, line, found)
+    _refuse_turning_back(headers, line, found)
     points = _without_rounding(found)
-    _refuse_spacing(headers, traces, found, _length(points) / (len(traces) - 1))
+    _refuse_spacing(headers, traces, found, _length(points) / (line.width - 1))
     return points
 
 
@@ -60,8 +63,9 @@ def _length(points: np.ndarray) -> float:
     return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
-def remarks(headers: TraceHeaders, traces: np.ndarray, measured: float) -> tuple[Finding, ...]:
+def remarks(headers: TraceHeaders, line: Line, measured: float) -> tuple[Finding, ...]:
     """Warnings about positions that were accepted."""
+    traces = line.traces
     found, texts = positions(headers, traces), []
     if found.stored != INTEGERS:
         texts.append(
@@ -137,17 +141,18 @@ def _refuse_conflict(headers: TraceHeaders, traces: np.ndarray, found: Positions
         )
 
 
-def _refuse_uneven(headers: TraceHeaders, traces: np.ndarray, found: Positions) -> None:
+def _refuse_uneven(headers: TraceHeaders, line: Line, found: Positions) -> None:
     if found.is_even:
         return
     steps, typical = found.steps, found.spacing
     worst = int(np.argmax(np.abs(steps - typical)))
+    index = min(line.index_before(worst), len(line.traces) - 2)
     read = "" if found.stored == INTEGERS else f" (read as {found.stored})"
     same = "" if steps.all() else "; some are at the same position, as in an unstacked gather"
     raise DataError(
         f"{headers.layout.path} has unevenly spaced traces{read}: most are {typical:g} apart, but traces "
-        f"{traces[worst]} and {traces[worst + 1]} (counted from 0) are {steps[worst]:g} apart{same}.",
-        _without_positions(found),
+        f"{line.traces[index]} and {line.traces[index + 1]} (counted from 0) are {steps[worst]:g} apart{same}.",
+        _without_positions(line, found),
         " Choose another part, or a line of a volume (",
         *CHOOSE_LINE,
         "), or ",
@@ -156,11 +161,11 @@ def _refuse_uneven(headers: TraceHeaders, traces: np.ndarray, found: Positions) 
     )
 
 
-def _without_positions(found: Positions) -> Text:
+def _without_positions(line: Line, found: Positions) -> Text:
     """Advice if traces at the ends of a line are at (0, 0), and all others elsewhere."""
     (placed,) = np.nonzero((found.x != 0) | (found.y != 0))
     first, last, count = placed[0], placed[-1], len(found.x)
-    if len(placed) == count or last - first + 1 != len(placed):
+    if len(placed) == count or last - first + 1 != len(placed) or line.width != line.traces[-1] + 1:
         return Text()
     return Text(
         f" {count - len(placed)} traces at the ends are at (0, 0), which means that their positions are missing; the "
@@ -170,10 +175,10 @@ def _without_positions(found: Positions) -> Text:
     )
 
 
-def _refuse_turning_back(headers: TraceHeaders, traces: np.ndarray, found: Positions) -> None:
+def _refuse_turning_back(headers: TraceHeaders, line: Line, found: Positions) -> None:
     """Compare the ends of two successive pieces, each long enough to show its direction despite the rounding."""
     piece = max(1, int(np.ceil(CLEAR * found.rounding / found.steps.mean())))
-    if len(traces) <= 2 * piece:
+    if line.width <= 2 * piece:
         return
     distance = np.hypot(found.x[2 * piece :] - found.x[: -2 * piece], found.y[2 * piece :] - found.y[: -2 * piece])
     arc_length = np.cumsum(np.concatenate([[0], found.steps]))
@@ -182,8 +187,8 @@ def _refuse_turning_back(headers: TraceHeaders, traces: np.ndarray, found: Posit
     if share[worst] < TURNED:
         raise DataError(
             f"{headers.layout.path} has traces that go back and forth: the line turns back at trace "
-            f"{traces[worst + piece]} (counted from 0; {_bytes(headers)} of the trace header). Choose a part without "
-            "turns (",
+            f"{line.traces[line.index_before(worst + piece)]} (counted from 0; {_bytes(headers)} of the trace header). "
+            "Choose a part without turns (",
             *CHOOSE_LINE,
             "), or ",
             GIVE_DX,
@@ -201,6 +206,14 @@ def _refuse_spacing(headers: TraceHeaders, traces: np.ndarray, found: Positions,
         low, high = SPACINGS
         raise DataError(
             f"{observation}, but those of a survey are {low:.1g} to {high:.3g} m apart: ", advice, kind="positions"
+        )
+    if scale.is_scalar_doubtful(found.x, found.y, measured, found.scalar):
+        raise DataError(
+            f"{observation}, which is doubtful: they would be unusually close, and not if the scalar did not apply: ",
+            advice,
+            ". If it does apply, give ",
+            Keyword("dx", rounded(measured)),
+            kind="positions",
         )
     if measured * scale.metres * (len(traces) - 1) > LONGEST:
         raise DataError(

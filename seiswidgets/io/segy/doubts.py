@@ -15,6 +15,7 @@ ZONED_SPACING = 51  # m: above it, an easting with a zone may also be one in dec
 SPACINGS = (0.49, 205)  # m: from a boomer's line to one with groups of 660 feet
 FINE_SPACING, FINE_INTERVAL = 0.045, 0.25  # m, and the largest sample interval, in ms, that allows it
 USUAL = (1, 60)  # m: most surveys
+CLOSEST, CLOSE_ON_MAP = 0.8, 7  # m per ms between samples, and m: closer traces are rare
 WIDE = 105  # m: accepted with a warning
 LONGEST = 20_000_000  # m: half the earth's circumference
 FOOT = 0.3048  # m
@@ -64,6 +65,14 @@ class Scale:
             and spacing <= ZONED_SPACING
         )
 
+    def is_scalar_doubtful(self, x: np.ndarray, y: np.ndarray, spacing: float, scalar: int) -> bool:
+        """Check whether traces are too close for their samples or their map, but not if a scalar did not divide."""
+        close, size = spacing * self.metres, abs(scalar)
+        if scalar >= -1 or not USUAL[0] <= close * size <= USUAL[1]:
+            return False
+        finely_sampled = self.interval is not None and self.interval >= 1 and close < CLOSEST * self.interval
+        return finely_sampled or (close <= CLOSE_ON_MAP and _in_zone(x * size, y * size) and not _in_zone(x, y))
+
     def may_be_seconds(self, x: np.ndarray, y: np.ndarray, spacing: float) -> bool:
         """Check whether positions may be seconds of arc: far from 0, and too close for their sample interval."""
         coarse = self.is_spacing(spacing) and (self.interval is None or self.interval >= SECONDS_INTERVAL)
@@ -73,6 +82,11 @@ class Scale:
             and spacing < SECONDS_CLOSE
             and all(np.abs(v).min() > FAR_FROM_0 and np.abs(v).max() <= most for v, most in sizes)
         )
+
+
+def _in_zone(x: np.ndarray, y: np.ndarray) -> bool:
+    """Check whether positions are an easting and a northing of a zone, as on most maps of the world."""
+    return bool(IN_ZONE[0] <= x.min() and x.max() <= IN_ZONE[1] and y.min() >= 1e6 and y.max() <= NORTHING)
 
 
 def are_degrees(x: np.ndarray, y: np.ndarray, spacing: float) -> bool:

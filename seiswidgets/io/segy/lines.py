@@ -12,142 +12,99 @@ from seiswidgets.errors import Keyword, SettingError
 from seiswidgets.io.options import OpenOptions, Progress, report_progress
 from seiswidgets.io.segy.layout import Layout
 from seiswidgets.io.segy.traces import TraceHeaders
+from seiswidgets.io.segy.volumes import OTHER, WINDOW, Volume, first_line, line_numbers, lines_of_volume, volume
 
 LINE_CHOICES = (Keyword("inline"), ", ", Keyword("crossline"), " or ", Keyword("traces"))
-OTHER = {"inline": "crossline", "crossline": "inline"}
+MOST_GAPS = 4  # columns of a line for each of its traces
+DEAD, TRACE_CODE, CDP = 2, 29, 21  # a code, and bytes of the trace header
+PREVIEWED = 10_000  # traces of a line that a preview uses
 SAMPLED = 50_000  # headers read to find one line of a volume
-FILLED = 0.25  # of a grid: the smallest share that an unsorted volume is assumed to fill
-WINDOW = 65_536  # headers read at a time
-COUNTED = 1_000_000  # headers read to list the lines of a volume that is not a full grid
 
 
 @dataclass(frozen=True, eq=False)
-class Volume:
-    """A file whose traces are a full grid of lines, one line after the other.
+class Line:
+    """Traces of a line, in order.
 
     Attributes
     ----------
-    slow, fast : "inline" or "crossline"
-        The number that is constant along a line as it is written, and the one that changes.
-    numbers : dict of str to array
-        Numbers of the inlines and of the crosslines, in the file's order.
+    traces : array, shape (n,)
+        Indices in the file.
+    columns : array, shape (n,)
+        Column of each in the section, increasing from 0; a column without a trace has no data.
     """
 
-    slow: str
-    fast: str
-    numbers: Mapping[str, np.ndarray]
+    traces: np.ndarray
+    columns: np.ndarray
 
-    def traces(self, name: str, number: int) -> slice | None:
-        """Traces of an inline or a crossline, or None if there is no line of that number."""
-        (indices,) = np.nonzero(self.numbers[name] == number)
-        if not len(indices):
-            return None
-        across, along = len(self.numbers[self.slow]), len(self.numbers[self.fast])
-        start = int(indices[0])
-        return slice(start * along, (start + 1) * along) if name == self.slow else slice(start, across * along, along)
+    @classmethod
+    def without_gaps(cls, traces: np.ndarray) -> "Line":
+        """A line whose traces follow each other."""
+        return cls(traces, np.arange(len(traces)))
 
-    def range(self, name: str) -> tuple[int, int, int]:
-        """First number, last number and count of the inlines or the crosslines."""
-        numbers = self.numbers[name]
-        return int(numbers[0]), int(numbers[-1]), len(numbers)
+    @property
+    def width(self) -> int:
+        """Number of columns."""
+        return int(self.columns[-1]) + 1
 
-
-def volume(headers: TraceHeaders) -> Volume | None:
-    """The full grid of lines in a file, recognised by a few of its headers; None if it is not a full grid."""
-    count, (slow, fast, length) = headers.layout.traces, first_line(headers)
-    if length == count or count % length:
-        return None
-    numbers = {slow: headers(slow, slice(0, None, length)), fast: headers(fast, slice(0, length))}
-    if not np.array_equal(headers(fast, slice(length, 2 * length)), numbers[fast]):
-        return None
-    steps = [np.diff(line) for line in numbers.values()]
-    if not all((step > 0).all() or (step < 0).all() for step in steps):
-        return None
-    return Volume(slow, fast, numbers)
+    def index_before(self, column: int) -> int:
+        """Index of the last trace that is not beyond a column."""
+        return max(int(np.searchsorted(self.columns, column, "right")) - 1, 0)
 
 
-def lines_of_volume(headers: TraceHeaders) -> dict[str, tuple[int, int, int]]:
-    """First, last and count of a volume's inlines and crosslines; empty for a file with a single line.
-
-    For a volume that is not a full grid, they are the lowest, the highest and the count in its first million traces.
-    """
-    grid = volume(headers)
-    if grid is not None:
-        return {name: grid.range(name) for name in OTHER}
-    numbers = _line_numbers(headers, COUNTED)
-    if not _cover_an_area(numbers["inline"], numbers["crossline"]):
-        return {}
-    unique = {name: np.unique(values) for name, values in numbers.items()}
-    return {name: (int(values[0]), int(values[-1]), len(values)) for name, values in unique.items()}
+def sample_line(headers: TraceHeaders, lines: Mapping[str, tuple]) -> tuple[Line, tuple[int, int, int] | None]:
+    """A line near the beginning of a file, to measure its spacing, and the offsets of its traces if it needs one."""
+    name, traces = _sampled_traces(headers, lines)
+    try:
+        return _arranged(headers, name, traces, None), None
+    except SettingError as error:
+        if error.kind != "offset":
+            return Line.without_gaps(traces), None
+    offsets, counts = np.unique(headers("offset", traces), return_counts=True)
+    commonest = int(offsets[np.argmax(counts)])
+    return _arranged(headers, name, traces, commonest), (int(offsets[0]), int(offsets[-1]), len(offsets))
 
 
-def _line_numbers(headers: TraceHeaders, count: int) -> dict[str, np.ndarray]:
-    return {name: headers(name, slice(0, count)) for name in OTHER}
-
-
-def _cover_an_area(inline: np.ndarray, crossline: np.ndarray) -> bool:
-    """Check whether traces cover more cells of their grid than a line across it would.
-
-    Numbers with another meaning may also do that, but those of a volume fill much of their grid, or are sorted.
-    """
-    counts = [len(np.unique(numbers)) for numbers in (inline, crossline)]
-    cells = len(np.unique((inline << 32) + (crossline & 0xFFFFFFFF)))
-    if min(counts) < 2 or cells <= sum(counts) - 1:
-        return False
-    is_sorted = any((steps >= 0).all() or (steps <= 0).all() for steps in map(np.diff, (inline, crossline)))
-    return bool(is_sorted or cells >= FILLED * counts[0] * counts[1])
-
-
-def sample_line(headers: TraceHeaders) -> np.ndarray:
-    """Indices of the traces of one line: the first line of a full grid, else the longest line near the beginning."""
+def _sampled_traces(headers: TraceHeaders, lines: Mapping[str, tuple]) -> tuple[str | None, np.ndarray]:
+    """Traces of the first line of a full grid, of the longest line of another volume, or of a file's only line."""
+    if not lines:
+        return None, np.arange(min(headers.layout.traces, PREVIEWED))
     if volume(headers) is not None:
-        return np.arange(first_line(headers)[2])
-    lines = []
-    line_numbers = _line_numbers(headers, SAMPLED)
-    for name, numbers in line_numbers.items():
-        values, counts = np.unique(numbers, return_counts=True)
-        (traces,) = np.nonzero(numbers == values[np.argmax(counts)])
-        lines.append(traces[np.argsort(line_numbers[OTHER[name]][traces], kind="stable")])
-    return max(lines, key=len)
+        slow, _, length = first_line(headers)
+        return slow, np.arange(min(length, PREVIEWED))
+    numbers, found = line_numbers(headers, SAMPLED), []
+    for name in OTHER:
+        values, counts = np.unique(numbers[name], return_counts=True)
+        found.append((name, numbers["trace"][numbers[name] == values[np.argmax(counts)]]))
+    name, traces = max(found, key=lambda each: len(each[1]))
+    return name, traces[:PREVIEWED]
 
 
-def first_line(headers: TraceHeaders) -> tuple[str, str, int]:
-    """Names of the constant and the changing number along the file's first line, and its number of traces."""
-    count = headers.layout.traces
-    same = [name for name in ("inline", "crossline") if np.ptp(headers(name, slice(0, 2))) == 0]
-    if len(same) != 1:
-        return "inline", "crossline", count
-    slow, fast = same[0], OTHER[same[0]]
-    return slow, fast, _length_of_first_line(headers, slow)
+def _arranged(headers: TraceHeaders, name: str | None, traces: np.ndarray, offset: int | None) -> Line:
+    """Traces of an inline or a crossline, or of a file's only line, as a line of one offset."""
+    if name is None:
+        return _one_line(headers, traces, offset)
+    return _sorted_line(headers, name, traces, offset)
 
 
-def _length_of_first_line(headers: TraceHeaders, slow: str) -> int:
-    count = headers.layout.traces
-    first = headers(slow, slice(0, 1))
-    for start in range(0, count, WINDOW):
-        (other,) = np.nonzero(headers(slow, slice(start, start + WINDOW)) != first)
-        if len(other):
-            return start + int(other[0])
-    return count
-
-
-def line(headers: TraceHeaders, options: OpenOptions, progress: Progress | None) -> np.ndarray:
-    """Indices of the selected traces, shape (n,); those of an inline or a crossline are sorted along it.
+def line(headers: TraceHeaders, options: OpenOptions, progress: Progress | None) -> Line:
+    """The selected line; the traces of an inline or a crossline are sorted along it, with gaps where some are missing.
 
     Raises
     ------
     SettingError
         If no line of a volume is selected, more than one is, or there is no such line.
     """
-    layout = headers.layout
+    layout, offset = headers.layout, options.keywords.get("offset")
     chosen = options.given(("inline", "crossline", "traces"))
     if len(chosen) > 1:
         raise SettingError("choose one of ", *LINE_CHOICES, f", not {' and '.join(chosen)}")
     if "traces" in chosen:
-        return _trace_range(layout, chosen["traces"])
+        options.refuse(("offset",), "a range of traces")
+        return Line.without_gaps(_trace_range(layout, chosen["traces"]))
     if chosen:
         ((name, number),) = chosen.items()
-        return _numbered_line(headers, volume(headers), name, number, progress)
+        traces = _numbered_line(headers, volume(headers), name, number, progress)
+        return _arranged(headers, name, traces, offset)
     if lines := lines_of_volume(headers):
         (a, b, m), (c, d, n) = lines["inline"], lines["crossline"]
         raise SettingError(
@@ -155,7 +112,78 @@ def line(headers: TraceHeaders, options: OpenOptions, progress: Progress | None)
             "choose a section of it with ",
             *LINE_CHOICES,
         )
-    return np.arange(layout.traces)
+    return _arranged(headers, None, np.arange(layout.traces), offset)
+
+
+def _one_line(headers: TraceHeaders, traces: np.ndarray, offset: int | None) -> Line:
+    """All traces of a file with a single line, or those of one offset."""
+    places = np.column_stack([headers(name, traces) for name in (CDP, "x", "y")])
+    _, place = np.unique(places, axis=0, return_inverse=True)
+    gathers = offset is not None or (place.any() and _offsets_at_one_place(headers, traces, place.ravel()))
+    return Line.without_gaps(_of_one_offset(headers, traces, offset) if gathers else traces)
+
+
+def _sorted_line(headers: TraceHeaders, name: str, traces: np.ndarray, offset: int | None) -> Line:
+    """Traces of an inline or a crossline, sorted along it, with a column for each missing one."""
+    traces = _without_padding(headers, traces)
+    along = headers(OTHER[name], traces)
+    if offset is not None or _offsets_at_one_place(headers, traces, along):
+        traces = _of_one_offset(headers, traces, offset)
+        along = headers(OTHER[name], traces)
+    steps = np.diff(along)
+    if not ((steps >= 0).all() or (steps <= 0).all()):
+        order = np.argsort(along, kind="stable")
+        traces, along = traces[order], along[order]
+    if not np.diff(along).all():
+        raise SettingError(
+            f"{headers.layout.path} has several traces at one place of that line (the same {name}, {OTHER[name]} and "
+            "offset); choose them with ",
+            Keyword("traces"),
+        )
+    return Line(traces, _columns(along))
+
+
+def _without_padding(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
+    """Leave out traces that pad a volume: those at (0, 0) that are marked as dead, or hold zeros only."""
+    is_placed = (headers("x", traces) != 0) | (headers("y", traces) != 0)
+    if is_placed.all() or is_placed.sum() < 2:
+        return traces
+    codes = headers(TRACE_CODE, traces)
+    kept = [
+        placed or (code != DEAD and bool(headers.amplitudes(int(trace)).any()))
+        for placed, code, trace in zip(is_placed, codes, traces, strict=True)
+    ]
+    return traces[kept]
+
+
+def _columns(along: np.ndarray) -> np.ndarray:
+    """Columns of traces by their numbers along the line; one after the other if the numbers are not regular."""
+    columns, rest = np.divmod(np.abs(along - along[0]), np.abs(np.diff(along)).min())
+    regular = not rest.any() and columns[-1] < MOST_GAPS * len(along)
+    return columns if regular else np.arange(len(along))
+
+
+def _offsets_at_one_place(headers: TraceHeaders, traces: np.ndarray, place: np.ndarray) -> bool:
+    """Check whether traces at one place differ in their offset, as before stack."""
+    order = np.argsort(place, kind="stable")
+    same = np.diff(place[order]) == 0
+    return bool(same.any() and np.diff(headers("offset", traces[order]))[same].any())
+
+
+def _of_one_offset(headers: TraceHeaders, traces: np.ndarray, offset: int | None) -> np.ndarray:
+    offsets = headers("offset", traces)
+    chosen = traces[offsets == offset]
+    if len(chosen) > 1:
+        return chosen
+    unique = np.unique(offsets).tolist()
+    few = map(str, unique if len(unique) < 5 else (*unique[:3], "...", unique[-1]))
+    raise SettingError(
+        f"{headers.layout.path} has traces before stack, of {len(unique)} offsets: {', '.join(few)} (byte "
+        f"{headers.first_bytes['offset']} of the trace header)"
+        f"{'' if offset is None else f', but {len(chosen)} traces of offset {offset}'}; choose one with ",
+        Keyword("offset"),
+        kind="offset",
+    )
 
 
 def _trace_range(layout: Layout, traces: slice | range) -> np.ndarray:
@@ -187,10 +215,7 @@ def _numbered_line(
             f"the trace header); {_first_and_last(headers, name)}. If the numbers are at other bytes, give ",
             Keyword("header_bytes"),
         )
-    along = headers(OTHER[name], traces)
-    steps = np.diff(along)
-    in_order = (steps >= 0).all() or (steps <= 0).all()
-    return traces if in_order else traces[np.argsort(along, kind="stable")]
+    return traces
 
 
 def _search(headers: TraceHeaders, name: str, number: int, progress: Progress | None) -> np.ndarray:

@@ -1,14 +1,14 @@
 """Map positions of SEG-Y traces: integers as in the standard, or floats at the same bytes where that is evident."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from seiswidgets.errors import DataError, Keyword, Text
 from seiswidgets.geology.section import METRES
 from seiswidgets.io.segy.doubts import Scale, are_degrees
-from seiswidgets.io.segy.traces import SHORT, TraceHeaders, ibm_floats
+from seiswidgets.io.segy.traces import TraceHeaders, ibm_floats
 from seiswidgets.io.segy.vertical import STANDARD_SCALARS, finest_interval, scalar_factors
 
 POSITION_BYTES = ((181, 185), (73, 77), (81, 85))  # midpoint; source and receiver, used by old lines
@@ -38,6 +38,13 @@ class Positions:
     rounding: float
     stored: str
     scalar: int
+
+    def at(self, columns: np.ndarray) -> "Positions":
+        """Positions at all columns of a line; those without a trace are interpolated."""
+        every = np.arange(columns[-1] + 1)
+        if len(every) == len(columns):
+            return self
+        return replace(self, x=np.interp(every, columns, self.x), y=np.interp(every, columns, self.y))
 
     @property
     def steps(self) -> np.ndarray:
@@ -70,6 +77,8 @@ def positions(headers: TraceHeaders, traces: np.ndarray) -> Positions:
     """
     scalar = _checked_scalar(headers, traces)
     raw, factor = [headers(name, traces) for name in ("x", "y")], scalar_factors(scalar)
+    if any(values.dtype.kind == "f" for values in raw):
+        return _given_floats(headers, raw, scalar)
     integers = Positions(raw[0] * factor, raw[1] * factor, float(factor.max()), INTEGERS, int(scalar[0]))
     floats = list(_as_floats(headers, raw, scalar))
     if not floats:
@@ -78,6 +87,20 @@ def positions(headers: TraceHeaders, traces: np.ndarray) -> Positions:
     if len(plausible) > 1:
         raise DataError(_ambiguous(headers, plausible), kind="positions")
     return next(iter(plausible), integers)
+
+
+def _given_floats(headers: TraceHeaders, raw: Sequence[np.ndarray], scalar: np.ndarray) -> Positions:
+    """Floats, as the user has given them; their scalar applies if they are plausible only with it."""
+    kinds = " and ".join(dict.fromkeys(headers.fields[name].kind for name in ("x", "y")))
+    x, y = (values.astype(float) for values in raw)
+    if not np.isfinite([x, y]).all():
+        raise DataError(
+            f"{headers.layout.path} has positions that are no numbers if they are read as {kinds}; correct ",
+            Keyword("header_bytes"),
+            kind="positions",
+        )
+    readings = list(_with_and_without_scalar(x, y, 2.0**-20, f"floats ({kinds})", scalar))
+    return next(iter(_plausible(scale_of(headers, np.arange(1)), readings)), readings[0])
 
 
 def _plausible(scale: Scale, readings: Sequence[Positions]) -> list[Positions]:
@@ -109,7 +132,7 @@ def _checked_scalar(headers: TraceHeaders, traces: np.ndarray) -> np.ndarray:
 
 def _as_floats(headers: TraceHeaders, raw: Sequence[np.ndarray], scalar: np.ndarray) -> Iterator[Positions]:
     """Readings of four bytes as floats, with and without the scalar, if all of them may be positions."""
-    if {headers.first_bytes["x"], headers.first_bytes["y"]} & SHORT:
+    if any(headers.fields[name].kind != "i4" or headers.fields[name].is_given for name in ("x", "y")):
         return
     bits = [values.astype(np.uint32) for values in raw]  # negative integers keep their bits
     for kind, read in (("IEEE floats", _ieee_floats), ("IBM floats", ibm_floats)):
@@ -118,12 +141,17 @@ def _as_floats(headers: TraceHeaders, raw: Sequence[np.ndarray], scalar: np.ndar
         sizes = sizes[sizes != 0]
         if not len(sizes) or not ((sizes >= SMALLEST) & (sizes <= LARGEST)).all():
             continue
-        rounding = 2.0**-23 * float(sizes.max()) * (16 if read is ibm_floats else 1)
-        first, factor = int(scalar[0]), scalar_factors(scalar)
-        yield Positions(x, y, rounding, kind, first)
-        if (factor != 1).any():
-            rounding *= float(factor.max())
-            yield Positions(x * factor, y * factor, rounding, f"{kind} with their scalar", first)
+        yield from _with_and_without_scalar(x, y, 2.0**-23 * (16 if read is ibm_floats else 1), kind, scalar)
+
+
+def _with_and_without_scalar(
+    x: np.ndarray, y: np.ndarray, precision: float, stored: str, scalar: np.ndarray
+) -> Iterator[Positions]:
+    rounding = precision * float(np.abs([x, y]).max())
+    first, factor = int(scalar[0]), scalar_factors(scalar)
+    yield Positions(x, y, rounding, stored, first)
+    if (factor != 1).any():
+        yield Positions(x * factor, y * factor, rounding * float(factor.max()), f"{stored} with their scalar", first)
 
 
 def _ieee_floats(bits: np.ndarray) -> np.ndarray:

@@ -19,14 +19,15 @@ from seiswidgets.io.options import (
     make_section,
     report_progress,
 )
+from seiswidgets.io.segy.amplitudes import format_doubt
 from seiswidgets.io.segy.course import course, remarks, spacing
 from seiswidgets.io.segy.layout import read_layout
-from seiswidgets.io.segy.lines import line, lines_of_volume, sample_line
-from seiswidgets.io.segy.traces import TraceHeaders, checked_bytes
+from seiswidgets.io.segy.lines import Line, line, sample_line
+from seiswidgets.io.segy.traces import TraceHeaders, checked_fields
 from seiswidgets.io.segy.vertical import delay, interval
+from seiswidgets.io.segy.volumes import lines_of_volume
 
 BLOCK = 256  # traces between two reports of progress
-PREVIEWED = 10_000  # traces that a preview uses to measure the spacing
 PER_MS_OR_M = {"ms": 1.0, "s": 1e-3, "m": 1.0, "km": 1e-3, "ft": 1.0}  # a depth in feet is written as if in metres
 
 
@@ -43,43 +44,47 @@ def open_segy(path: Path, options: OpenOptions, progress: Progress | None) -> Se
     options.refuse(("extent",), "SEG-Y")
     z_unit = options.time_or_depth(path)
     with open_headers(path, options) as headers:
-        traces = line(headers, options, progress)
-        axes = _axes(headers, traces, options, PER_MS_OR_M.get(z_unit, 1.0))
-        amplitude = _read_samples(headers, traces, progress)
+        selected = line(headers, options, progress)
+        axes = _axes(headers, selected, options, PER_MS_OR_M.get(z_unit, 1.0))
+        doubt = None if headers.layout.is_format_given else format_doubt(headers, selected.traces)
+        if doubt:
+            raise DataError(doubt.text, kind="samples")
+        amplitude = _read_samples(headers, selected, progress)
     return make_section(path, amplitude, options, **axes)
 
 
 @contextmanager
 def open_headers(path: Path, options: OpenOptions) -> Iterator[TraceHeaders]:
     """Open the trace headers of a SEG-Y file as a context manager."""
-    layout = read_layout(path)
-    positions = checked_bytes(options.keywords.get("header_bytes"))
+    fields = checked_fields(options.keywords.get("header_bytes"))
+    layout = read_layout(path, options)
     with path.open("rb", buffering=0) as file:
-        yield TraceHeaders(layout, file, positions, options.keywords.get("x_unit") or layout.x_unit or "m")
+        yield TraceHeaders(layout, file, fields, options.keywords.get("x_unit") or layout.x_unit or "m")
 
 
-def _axes(headers: TraceHeaders, traces: np.ndarray, options: OpenOptions, scale: float) -> dict[str, Any]:
+def _axes(headers: TraceHeaders, line: Line, options: OpenOptions, scale: float) -> dict[str, Any]:
     """Spacing, origin and unit as given, or else as in the headers, whose z is multiplied by ``scale``."""
     given = options.given(("dx", "dz", "x0", "z0"))
     return {
-        "dx": given["dx"] if "dx" in given else spacing(headers, traces),
-        "dz": given["dz"] if "dz" in given else scale * interval(headers, traces),
+        "dx": given["dx"] if "dx" in given else spacing(headers, line),
+        "dz": given["dz"] if "dz" in given else scale * interval(headers, line.traces),
         "x0": given.get("x0", 0.0),
-        "z0": given["z0"] if "z0" in given else scale * delay(headers, traces),
+        "z0": given["z0"] if "z0" in given else scale * delay(headers, line.traces),
         "x_unit": headers.layout.x_unit or "m",
     }
 
 
-def _read_samples(headers: TraceHeaders, traces: np.ndarray, progress: Progress | None) -> np.ndarray:
-    """Amplitudes of some traces, in the smallest float type that holds them exactly; shape (nz, nx)."""
-    samples = headers.layout.samples
-    dtype = np.result_type(headers.amplitudes(traces[0]).dtype, np.float32)
-    check_memory(headers.layout.path, (samples, len(traces)), dtype.itemsize)
-    amplitude = np.empty((samples, len(traces)), dtype)
-    for start in range(0, len(traces), BLOCK):
-        for column, trace in enumerate(traces[start : start + BLOCK], start):
+def _read_samples(headers: TraceHeaders, line: Line, progress: Progress | None) -> np.ndarray:
+    """Amplitudes of a line, in the smallest float type that holds them exactly, NaN in its gaps; shape (nz, nx)."""
+    samples, count = headers.layout.samples, len(line.traces)
+    dtype = np.result_type(headers.amplitudes(line.traces[0]).dtype, np.float32)
+    check_memory(headers.layout.path, (samples, line.width), dtype.itemsize)
+    amplitude = np.full((samples, line.width), np.nan, dtype)
+    for start in range(0, count, BLOCK):
+        part = slice(start, start + BLOCK)
+        for column, trace in zip(line.columns[part], line.traces[part], strict=True):
             amplitude[:, column] = headers.amplitudes(trace)
-        report_progress(progress, min(1.0, (start + BLOCK) / len(traces)))
+        report_progress(progress, min(1.0, (start + BLOCK) / count))
     return amplitude
 
 
@@ -89,7 +94,7 @@ def line_on_map(path: Path, **line_options: Unpack[LineKeywords]) -> np.ndarray:
     Parameters
     ----------
     path : Path
-    inline, crossline, traces, header_bytes
+    **line_options
         The line, as for ``open_section``.
 
     Raises
@@ -106,11 +111,15 @@ def preview_segy(path: Path, options: OpenOptions) -> SectionInfo:
     """Summarise a SEG-Y file; only headers are read, and of a volume only some."""
     with open_headers(path, options) as headers:
         layout, lines = headers.layout, lines_of_volume(headers)
-        first = (sample_line(headers) if lines else np.arange(min(PREVIEWED, layout.traces)))[:PREVIEWED]
-        (dx, dz, z0), problems = zip(
-            *(_measure(measure, headers, first) for measure in (spacing, interval, delay)), strict=True
+        first, offsets = sample_line(headers, lines)
+        measures: tuple[Callable[[], float], ...] = (
+            lambda: spacing(headers, first),
+            lambda: interval(headers, first.traces),
+            lambda: delay(headers, first.traces),
         )
-        doubts = layout.doubts if dx is None else (*layout.doubts, *remarks(headers, first, dx))
+        (dx, dz, z0), problems = zip(*map(_measure, measures), strict=True)
+        remarked = () if dx is None else remarks(headers, first, dx)
+        doubt = format_doubt(headers, first.traces)
     return SectionInfo(
         path=path,
         kind="SEG-Y",
@@ -119,6 +128,8 @@ def preview_segy(path: Path, options: OpenOptions) -> SectionInfo:
         shape=(layout.samples, layout.traces),
         needed=(
             *(["inline, crossline or traces"] if lines else []),
+            *(["offset"] if offsets else []),
+            *(["sample_format"] if doubt and not layout.is_format_given else []),
             *(name for name, value in (("dx", dx), ("dz", dz), ("z0", z0)) if value is None),
             TIME_OR_DEPTH,
         ),
@@ -128,16 +139,21 @@ def preview_segy(path: Path, options: OpenOptions) -> SectionInfo:
         x_unit=None if dx is None else layout.x_unit or "m",
         inlines=lines.get("inline"),
         crosslines=lines.get("crossline"),
+        offsets=offsets,
+        sample_formats=(doubt.likely, doubt.stated) if doubt else (),
         header=layout.text,
-        findings=(*(problem for problem in problems if problem is not None), *doubts),
+        findings=(
+            *([Finding("warning" if layout.is_format_given else "problem", "samples", doubt.text)] if doubt else []),
+            *(problem for problem in problems if problem is not None),
+            *layout.doubts,
+            *remarked,
+        ),
     )
 
 
-def _measure(
-    measure: Callable[[TraceHeaders, np.ndarray], float], headers: TraceHeaders, traces: np.ndarray
-) -> tuple[float | None, Finding | None]:
+def _measure(measure: Callable[[], float]) -> tuple[float | None, Finding | None]:
     """The measured number, or a finding that says why it cannot be determined."""
     try:
-        return measure(headers, traces), None
+        return measure(), None
     except DataError as error:
         return None, Finding("problem", error.kind or "headers", error.text)

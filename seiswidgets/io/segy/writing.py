@@ -1,32 +1,31 @@
 """Writing of SEG-Y: amplitudes as IEEE floats, the original's headers, and a note that the section was restored."""
 
-from collections.abc import Mapping, Sequence
+import struct
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from types import ModuleType
-from typing import Any
 
 import numpy as np
 
-from seiswidgets.errors import DataError, Keyword, SettingError
+from seiswidgets.errors import Keyword, SettingError
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.io.exports.reports import stages_as_line
-from seiswidgets.io.files import atomic_write, import_optional
+from seiswidgets.io.files import atomic_write
 from seiswidgets.io.options import OpenOptions
-from seiswidgets.io.segy.layout import Layout
-from seiswidgets.io.segy.lines import line
+from seiswidgets.io.segy.formats import HEADERS, TEXT, TRACE_HEADER
+from seiswidgets.io.segy.lines import Line, line
 from seiswidgets.io.segy.reading import open_headers
-from seiswidgets.io.segy.traces import BYTES
+from seiswidgets.io.segy.traces import FIELDS, LONG, SHORT, HeaderField, TraceHeaders, standard_field
 
 THOUSANDTHS = {"ms": 1000, "s": 1_000_000, "m": 1000, "km": 1_000_000, "ft": 1000}  # of a millisecond, metre or foot
 LIVE, DEAD = 1, 2
 LIKE = Keyword("like")  # as errors name it
-COPIED = {
-    *range(3201, 3217),
-    *range(3227, 3261),
-}  # bytes of the binary header that are copied
+COPIED = ((3201, 3217), (3227, 3261))  # bytes of the binary header that are copied, each to the one before
+GENERAL_LONG = (3201, 3205, 3209)  # four-byte numbers of the binary header
 NUMBERS = (1, 5, 21)  # trace number in the line and in the file, and number of its common depth point
-REVISION = b"\1\0\0\1\0\0"  # 1.0, traces of equal length, no further textual headers
+LONG_FREE = (181, 185, 189, 193, 197, 205, 225)  # four-byte numbers of revision 1 that revision 0 leaves free
+CODES = {"i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}  # of struct
+REVISION = {3501: 0x100, 3503: 1}  # 1.0, with traces of equal length
 LARGEST_INTEGER, MOST_SAMPLES = 2**31 - 1, 2**16 - 1
 
 
@@ -42,59 +41,39 @@ def write_segy(
     DataError
         If the file cannot be written, or ``like`` cannot be read.
     """
-    segyio = import_optional("segyio", f"to write {path}")
     _check_samples(section, path)
     vertical = _vertical(section, path)
     if like is None:
-        text, general, headers = [""] * 40, {3255: 2 if section.x_unit == "ft" else 1}, _own_headers(section, path)
+        text, general = [""] * 40, bytearray(HEADERS - TEXT)
+        _put(general, _general(3255), 2 if section.x_unit == "ft" else 1)
+        headers = _own_headers(section, path)
     else:
         with open_headers(like, options) as original:
-            text = original.layout.text.split("\n")
-            traces = line(original, options, None)
-            with _open_with_segyio(segyio, original.layout) as file:
-                general = {int(byte): value for byte, value in file.bin.items() if byte in COPIED}
-                headers = _copied_headers(
-                    section, file, original.first_bytes, traces, options.keywords.get("x0") or 0.0
-                )
-    spec = segyio.spec()
-    spec.samples, spec.tracecount, spec.format = np.arange(section.shape[0]), section.shape[1], 5
-    with atomic_write(path) as draft:
-        with segyio.create(draft, spec) as file:
-            file.text[0] = _textual_header(text, section, restored)
-            file.bin = general | {3217: vertical[117], 3219: vertical[117]}
-            for index, (trace, header) in enumerate(zip(section.amplitude.T, headers, strict=True)):
-                _put_header(file, index, header | vertical | {115: section.shape[0], 29: _state(trace)}, path)
-                file.trace[index] = np.nan_to_num(np.ascontiguousarray(trace, np.float32))
-        with draft.open("r+b") as written:  # versions of segyio differ in how they write these
-            written.seek(3500)
-            written.write(REVISION)
+            text, general = original.layout.text.split("\n"), _copied_general(original)
+            selected = line(original, options, None)
+            headers = list(_copied_headers(section, original, selected, options.keywords.get("x0") or 0.0, path))
+    for byte, value in (REVISION | {3217: vertical[117], 3221: section.shape[0], 3225: 5}).items():
+        _put(general, _general(byte, "u2"), value)
+    with atomic_write(path) as draft, draft.open("wb") as file:
+        file.write(_textual_header(text, section, restored) + bytes(general))
+        for trace, header in zip(section.amplitude.T, headers, strict=True):
+            for byte, value in (vertical | {115: section.shape[0], 29: _state(trace)}).items():
+                _put(header, HeaderField(byte, "u2" if byte == 115 else "i2"), value)
+            file.write(bytes(header) + np.nan_to_num(trace).astype(">f4").tobytes())
 
 
-def _open_with_segyio(segyio: ModuleType, layout: Layout) -> Any:
-    """Open the original with segyio, which must understand its headers in the same way."""
-    try:
-        file = segyio.open(layout.path, ignore_geometry=True, endian=layout.endian)
-    except (OSError, RuntimeError, ValueError) as error:
-        raise DataError(f"{layout.path} has headers that cannot be copied: {error}; leave out ", LIKE) from error
-    if (file.tracecount, len(file.samples)) != (layout.traces, layout.samples):
-        file.close()
-        raise DataError(
-            f"{layout.path} has headers that can be read in two ways ({layout.traces} traces of {layout.samples} "
-            "samples, or otherwise), and cannot be copied; leave out ",
-            LIKE,
-        )
-    return file
+def _general(byte: int, kind: str = "i2") -> HeaderField:
+    """A number of the binary header, by its byte in the file."""
+    return HeaderField(byte - TEXT, kind)
 
 
-def _put_header(file: Any, index: int, header: Mapping[int, int], path: Path) -> None:
-    try:
-        file.header[index] = header
-    except OverflowError as error:
-        raise SettingError(
-            f"{path}: the numbers or positions of the line, continued beyond its ends, are too large for SEG-Y; leave "
-            "out ",
-            LIKE,
-        ) from error
+def _put(header: bytearray, field: HeaderField, value: float) -> None:
+    struct.pack_into(f">{CODES[field.kind]}", header, field.byte - 1, value)
+
+
+def _number(header: bytes | bytearray, field: HeaderField) -> float:
+    (value,) = struct.unpack_from(f">{CODES[field.kind]}", header, field.byte - 1)
+    return value
 
 
 def _state(trace: np.ndarray) -> int:
@@ -126,35 +105,87 @@ def _vertical(section: Section, path: Path) -> dict[int, int]:
     raise SettingError(f"{path}: SEG-Y cannot hold a first sample at {section.z0:g} {section.z_unit}; save it as .npz")
 
 
-def _own_headers(section: Section, path: Path) -> list[dict[int, int]]:
+def _own_headers(section: Section, path: Path) -> list[bytearray]:
     """Headers of a line along the axis of x, with positions in thousandths of a metre or foot if these fit."""
     x = section.x * (1000 if section.x_unit == "km" else 1)
     scale = next((scale for scale in (1000, 100, 10, 1) if np.abs(x).max() * scale <= LARGEST_INTEGER), None)
     if scale is None:
         raise SettingError(f"{path}: SEG-Y cannot hold positions as far out as {np.abs(x).max():g} m; save it as .npz")
-    scalar = -scale if scale > 1 else 1
-    return [
-        {**dict.fromkeys(NUMBERS, count), BYTES["scalar"]: scalar, BYTES["x"]: position, 89: 1}
-        for count, position in enumerate(np.rint(x * scale).astype(int).tolist(), 1)
-    ]
+    headers = [bytearray(TRACE_HEADER) for _ in x]
+    for count, (header, position) in enumerate(zip(headers, np.rint(x * scale).astype(int).tolist(), strict=True), 1):
+        numbers = {**dict.fromkeys(NUMBERS, count), 89: 1}
+        for byte, value in numbers.items():
+            _put(header, standard_field(byte), value)
+        _put(header, FIELDS["scalar"], -scale if scale > 1 else 1)
+        _put(header, FIELDS["x"], position)
+    return headers
+
+
+def _copied_general(original: TraceHeaders) -> bytearray:
+    """The binary header with the original's numbers of the line, big-endian."""
+    with original.layout.path.open("rb") as file:
+        content: bytes | bytearray = file.read(HEADERS)
+    if original.layout.endian == "little":
+        content = _swapped(content, dict.fromkeys(GENERAL_LONG, 4) | dict.fromkeys(range(3213, 3261, 2), 2))
+    general = bytearray(HEADERS - TEXT)
+    for first, end in COPIED:
+        general[first - 1 - TEXT : end - 1 - TEXT] = content[first - 1 : end - 1]
+    return general
+
+
+def _swapped(content: bytes | bytearray, sizes: Mapping[int, int]) -> bytearray:
+    """Reverse the bytes of each number, given its first byte and its size."""
+    swapped = bytearray(content)
+    for byte, size in sizes.items():
+        swapped[byte - 1 : byte - 1 + size] = content[byte - 1 : byte - 1 + size][::-1]
+    return swapped
+
+
+def _header_sizes(fields: Mapping[str, HeaderField]) -> dict[int, int]:
+    """First byte and size of all numbers of a trace header; the user's fields take precedence."""
+    sizes = {field.byte: field.size for field in fields.values()}
+    taken = {byte for first, size in sizes.items() for byte in range(first, first + size)}
+    standard = dict.fromkeys((*LONG, *LONG_FREE), 4) | dict.fromkeys((*SHORT, *range(201, 240, 2)), 2)
+    for first, size in sorted(standard.items(), key=lambda item: -item[1]):
+        if taken.isdisjoint(range(first, first + size)):
+            sizes[first] = size
+            taken.update(range(first, first + size))
+    return sizes
 
 
 def _copied_headers(
-    section: Section, file: Any, positions: Mapping[str, int], traces: np.ndarray, x0: float
-) -> list[dict[int, int]]:
-    """Headers of the original's traces; beyond its ends the last ones, with numbers and positions continued."""
-    columns = np.rint((section.x - x0) / section.dx).astype(int)
-    continued = [*NUMBERS, *(positions[name] for name in ("inline", "crossline", "x", "y"))]
-    headers = []
-    for column in columns:
-        inside = int(np.clip(column, 0, len(traces) - 1))
-        header = dict(file.header[int(traces[inside])])
-        if column != inside:
-            neighbour = file.header[int(traces[1 if inside == 0 else inside - 1])]
-            beyond = abs(column - inside)
-            header |= {byte: header[byte] + int(beyond) * (header[byte] - neighbour[byte]) for byte in continued}
-        headers.append({int(byte): value for byte, value in header.items()})
-    return headers
+    section: Section, original: TraceHeaders, selected: Line, x0: float, path: Path
+) -> Iterator[bytearray]:
+    """Headers of the original's traces; beyond its ends and in its gaps with numbers and positions continued."""
+    fields = original.fields
+    sizes = _header_sizes(fields) if original.layout.endian == "little" else {}
+    continued = {*map(standard_field, NUMBERS), *(fields[name] for name in ("inline", "crossline", "x", "y"))}
+    for column in np.rint((section.x - x0) / section.dx).astype(int).tolist():
+        index = selected.index_before(column)
+        header = _swapped(original.header(int(selected.traces[index])), sizes)
+        beyond = column - int(selected.columns[index])
+        if beyond:
+            other = index - 1 if index else 1
+            neighbour = bytes(_swapped(original.header(int(selected.traces[other])), sizes))
+            share = beyond / int(selected.columns[index] - selected.columns[other])
+            _continue(header, neighbour, share, continued, path)
+        yield header
+
+
+def _continue(header: bytearray, neighbour: bytes, share: float, fields: set[HeaderField], path: Path) -> None:
+    """Continue the numbers of a header in steps like those from its neighbour."""
+    for field in fields:
+        if field.kind in CODES:
+            value = _number(header, field)
+            value += share * (value - _number(neighbour, field))
+            try:
+                _put(header, field, value if field.kind in ("f4", "f8") else round(value))
+            except (struct.error, OverflowError) as error:
+                raise SettingError(
+                    f"{path}: the numbers or positions of the line, continued beyond its ends, are too large for "
+                    "SEG-Y; leave out ",
+                    LIKE,
+                ) from error
 
 
 def _textual_header(lines: Sequence[str], section: Section, restored: Restoration | None) -> bytes:
@@ -174,4 +205,5 @@ def _textual_header(lines: Sequence[str], section: Section, restored: Restoratio
     for index, note in zip(free, notes, strict=True):
         texts[index] = note
     header = "".join(f"C{count:02} {text[:76].ljust(76)}" for count, text in enumerate(texts, 1))
-    return "".join(letter if letter.isprintable() else " " for letter in header).encode("ascii", "replace")
+    printable = "".join(letter if letter.isprintable() else " " for letter in header)
+    return printable.encode("ascii", "replace").decode("ascii").encode("cp500")

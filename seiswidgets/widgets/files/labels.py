@@ -6,6 +6,7 @@ from seiswidgets.io.session.session import Session
 
 LABELS = {  # by keyword
     "along": "x comes from",
+    "byte_order": "byte order",
     "crossline": "crossline",
     "dx": "traces apart",
     "dz": "samples apart",
@@ -13,6 +14,9 @@ LABELS = {  # by keyword
     "header_bytes": "other header bytes",
     "inline": "inline",
     "line": "seismic line",
+    "offset": "offset",
+    "revision": "revision",
+    "sample_format": "sample format",
     "traces": "traces",
     "velocity": "velocity",
     "x_unit": "unit of x",

@@ -11,6 +11,7 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.findings import worst_first
 from seiswidgets.geology.section import METRES, SECONDS
 from seiswidgets.io.info import SectionInfo
+from seiswidgets.io.segy.formats import FORMATS
 from seiswidgets.io.segy.reading import PER_MS_OR_M
 from seiswidgets.widgets.closing import close_with_parts
 from seiswidgets.widgets.files.labels import LABELS, in_labels
@@ -62,6 +63,7 @@ class SectionFields(VBox):
         self._info, self.fields = info, {}
         if info.kind == "SEG-Y":
             self._add_line(info)
+            self._add_doubts(info)
         if any("z_unit" in need for need in info.needed):
             self._add_units(info)
         if any("extent" in need for need in info.needed):
@@ -94,11 +96,11 @@ class SectionFields(VBox):
 
     def _value(self, name: str) -> Any:
         value = self.fields[name].value
-        if name in ("line", "z_unit", "x_unit"):
+        if name in ("line", "z_unit", "x_unit", "sample_format"):
             return value
         text = value.strip()
-        if name == "number":
-            return _line_number(self.fields["line"].value, text)
+        if name in ("number", "offset"):
+            return _line_number(self.fields["line"].value if name == "number" else name, text)
         if not text and self._placeholder(name):
             return None  # as in the file
         return validation.finite_number(EXTENT.get(name) or LABELS[name], text)
@@ -114,11 +116,21 @@ class SectionFields(VBox):
         kind, number = self.fields["line"].value, self.fields["number"]
         number.layout.display = "none" if kind == ALL else ""
         number.description = NUMBER.get(kind, "")
+        if "offset" in self.fields:
+            self.fields["offset"].layout.display = "none" if kind == "traces" else ""
         if kind in ("inline", "crossline"):
             middle = info.middle(kind)
             number.value = "" if middle is None else str(middle)
         elif kind == "traces":
             number.value = f"0 to {info.shape[1] - 1}"
+
+    def _add_doubts(self, info: SectionInfo) -> None:
+        """Ask for an offset before stack, and for a doubtful sample format, the likelier one first."""
+        if info.offsets:
+            self._add_text("offset", LABELS["offset"], info.offsets[0])
+        if "sample_format" in info.needed:
+            names = {each.name: each.words for each in FORMATS.values()}
+            self._add_choice("sample_format", LABELS["sample_format"], [(names[n], n) for n in info.sample_formats])
 
     def _add_units(self, info: SectionInfo) -> None:
         self._add_choice("z_unit", "vertical axis", list(VERTICAL_AXES.items()))
@@ -167,7 +179,7 @@ class SectionFields(VBox):
         if "z_unit" in self.fields:
             assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
             assumed += [] if info.x_unit else ["unit of x"]
-        assumed += [LABELS[name] for name in ("dx", "dz", "z0") if name in info.needed]
+        assumed += [LABELS[name] for name in ("offset", "sample_format", "dx", "dz", "z0") if name in info.needed]
         assumed += [label for name, label in EXTENT.items() if name in self.fields]
         cropped = CROPPED if info.kind == "picture" else ""
         return findings + (HINT.format(ASSUMED.format(", ".join(assumed)) + cropped) if assumed else "")

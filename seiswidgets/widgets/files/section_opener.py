@@ -9,10 +9,11 @@ from typing import Any
 from ipywidgets import HTML, Button, HBox, Layout, VBox
 from traitlets import Bunch
 
+from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.info import SectionInfo
-from seiswidgets.io.opening import open_section, preview
+from seiswidgets.io.opening import kind_of, open_section, preview
 from seiswidgets.io.session.sources import FILE, SectionSource
 from seiswidgets.widgets.files.background_job import BackgroundJob, Report
 from seiswidgets.widgets.files.file_field import FileField
@@ -83,12 +84,11 @@ class SectionOpener(VBox):
         self.file.end()
 
     def _choices(self) -> dict[str, Any]:
-        choices, header_bytes = self.fields.choices(), self._header_bytes()
-        return choices | ({"header_bytes": header_bytes} if header_bytes else {})
+        return self.fields.choices() | self._corrections()
 
-    def _header_bytes(self) -> dict[str, int] | None:
-        """Chosen header bytes; None if they are standard, or not shown."""
-        return self.header_bytes.chosen() if self.header_bytes in self._page.children else None
+    def _corrections(self) -> dict[str, Any]:
+        """Keywords that correct the file's headers; none if they are not shown."""
+        return self.header_bytes.chosen() if self.header_bytes in self._page.children else {}
 
     def _take_path(self, change: Bunch) -> None:
         self._page.children = ()
@@ -103,12 +103,22 @@ class SectionOpener(VBox):
         self._update_button()
         if self.file.path:
             self.notice.attempt(
-                lambda: self.job.begin(partial(self._read_preview, self.file.path, self._header_bytes()))
+                lambda: self.job.begin(partial(self._read_preview, self.file.path, self._corrections()))
             )
 
-    def _read_preview(self, path: str, header_bytes: dict[str, int] | None, report: Report) -> Callable[[], None]:
-        info = preview(path, header_bytes=header_bytes)
-        return partial(self._show_preview, info, thumbnail(info, header_bytes, report))
+    def _read_preview(self, path: str, corrections: dict[str, Any], report: Report) -> Callable[[], None]:
+        try:
+            info = preview(path, **corrections)
+        except SeiswidgetsError as error:
+            if kind_of(path) != "SEG-Y":
+                raise
+            return partial(self._show_problem, error)
+        return partial(self._show_preview, info, thumbnail(info, corrections, report))
+
+    def _show_problem(self, error: SeiswidgetsError) -> None:
+        """Show why a SEG-Y file cannot be read as it is, and what may correct its headers."""
+        self._page.children = [self.header_bytes]
+        self.notice.alert(error.text)
 
     def _show_preview(self, info: SectionInfo, picture: str) -> None:
         self.summary.value, self.thumbnail.value = _summary(info), picture

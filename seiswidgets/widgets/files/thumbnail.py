@@ -21,8 +21,10 @@ FRAME = (
 )
 
 
-def thumbnail(info: SectionInfo, header_bytes: Mapping[str, int] | None, progress: Progress) -> str:
+def thumbnail(info: SectionInfo, corrections: Mapping[str, Any], progress: Progress) -> str:
     """HTML of a picture in greys, without axes; empty if reading takes long or fails.
+
+    ``corrections`` are keywords that correct the headers of SEG-Y.
 
     A SEG-Y line is decimated; a volume is shown by its middle inline, which is also the one offered for opening.
 
@@ -33,9 +35,9 @@ def thumbnail(info: SectionInfo, header_bytes: Mapping[str, int] | None, progres
     """
     if info.kind != "SEG-Y" and info.size > LARGEST:
         return ""
-    caption, keywords = _selection(info, header_bytes)
+    caption, keywords = _selection(info)
     try:
-        section = open_section(info.path, dx=1, dz=1, z0=0, z_unit="m", progress=progress, **keywords)
+        section = open_section(info.path, dx=1, dz=1, z0=0, z_unit="m", progress=progress, **keywords, **corrections)
     except Cancelled:
         raise
     except SeiswidgetsError:  # shown when the user opens the file
@@ -46,12 +48,12 @@ def thumbnail(info: SectionInfo, header_bytes: Mapping[str, int] | None, progres
     return FRAME.format(caption, b64encode(picture).decode())
 
 
-def _selection(info: SectionInfo, header_bytes: Mapping[str, int] | None) -> tuple[str, dict[str, Any]]:
+def _selection(info: SectionInfo) -> tuple[str, dict[str, Any]]:
     """Part of a file that is shown: its caption, and the keywords of `open_section` that select it."""
     if info.kind != "SEG-Y":
         return "The whole line", {}
     if info.inlines:
         inline = info.middle("inline")
-        return f"Inline {inline}", {"inline": inline, "header_bytes": header_bytes}
+        return f"Inline {inline}", {"inline": inline, "offset": info.offsets and info.offsets[0]}
     traces = info.shape[1]
     return "The whole line", {"traces": range(0, traces, max(1, traces // WIDEST))}
