@@ -60,7 +60,10 @@ def resample_fine(points: np.ndarray, tolerance: float, step: float) -> np.ndarr
 
 
 def fault_lines(
-    faults: Mapping[str, np.ndarray], domain: RestorationDomain, ends: Mapping[str, Ends] = NO_ENDS
+    faults: Mapping[str, np.ndarray],
+    domain: RestorationDomain,
+    ends: Mapping[str, Ends] = NO_ENDS,
+    boundaries: Sequence[LineString] = (),
 ) -> dict[str, LineString]:
     """Faults ready to be cut: without repeated points, and meeting what they nearly meet.
 
@@ -74,6 +77,8 @@ def fault_lines(
     domain : RestorationDomain
     ends : dict of str to pair of str, optional
         See `Fault.ends`; "auto" for faults without an entry.
+    boundaries : list of LineString, optional
+        Other faults, which these may meet.
 
     Raises
     ------
@@ -83,7 +88,7 @@ def fault_lines(
     drawn = {name: _line(name, points, domain) for name, points in faults.items()}
     lines = _follow_earlier(drawn, domain)
     for name in sorted(lines, key=lambda name: longest_first(lines[name])):
-        others = [domain.outline.boundary, *(line for other, line in lines.items() if other != name)]
+        others = [domain.outline.boundary, *boundaries, *(line for other, line in lines.items() if other != name)]
         lines[name] = _fit_ends(lines[name], others, ends.get(name, (AUTO, AUTO)), domain)
     return lines
 

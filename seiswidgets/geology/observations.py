@@ -34,7 +34,7 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
         finding for name, edges in blocks.beds.items() for finding in _stretched(name, edges, before, after, domain)
     ]
     faults, slips = blocks.network.faults, blocks.slips()
-    ends = fault_end_findings(faults, slips, domain, blocks.ends)
+    ends = fault_end_findings(blocks.lines, slips, domain, blocks.ends)
     growth = growth_findings(faults, slips, domain)
     extensions = extension_findings(blocks.network.horizons, list(faults), domain)
     carried = [carried_finding(error) for error in blocks.network.refusals]

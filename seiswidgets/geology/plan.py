@@ -233,10 +233,8 @@ class RestorationJob:
         return [self.interpretation.fault(name) for name in step.picks] or list(self.interpretation.faults)
 
     def _boundaries(self, step: Step) -> list[Fault]:
-        """The faults that are restored neither in a step nor in one before it."""
-        steps = takewhile(lambda other: other is not step, self.steps)
-        restored = [fault for other in [*steps, step] if other.kind == UNFAULT for fault in self._faults(other)]
-        return [fault for fault in self.interpretation.faults if fault not in restored]
+        """The faults that a step does not restore."""
+        return [fault for fault in self.interpretation.faults if fault not in self._faults(step)]
 
     def _horizon(self, step: Step) -> Horizon:
         if len(step.picks) > 1:

@@ -106,7 +106,8 @@ class Restoration:
             cannot be used as it was drawn, is carried along with the rock, and the report has a finding about it.
         boundaries : Fault or list of Fault
             The other faults of the interpretation, such as older ones that are restored later: no bed crosses them,
-            and the rock does not slip along them. Those that are also among ``faults`` are left out.
+            and the rock does not slip along them, except where one of ``faults`` ends at a boundary and can continue
+            along it without a sharp turn, as thrusts do on a common floor. Those among ``faults`` are left out.
         fixed : (x, z), optional
             A point in the block that stays exactly where it is. If left out both sides of every fault move, and of
             all solutions that differ by a rigid motion the one that moves least is taken.

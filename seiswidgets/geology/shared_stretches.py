@@ -1,13 +1,16 @@
 """Stretches that two faults share: thrusts on one floor, or a fault drawn along the younger one that offset it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
+import numpy as np
 import shapely
 from shapely import LineString, Point
 from shapely.ops import substring
 
 TIGHT = 0.01  # share of the reach: lines drawn along each other with snapping are closer than this
 LONG = 12  # times the distance between the lines: two that cross at more than 10 degrees part sooner
+
+ONWARDS = np.sqrt(0.5)  # cosine of the largest turn in which slip on a fault continues along another
 
 Stretch = tuple[float, float]  # arc lengths of its ends along a line
 
@@ -39,3 +42,46 @@ def follow(line: LineString, others: Iterable[LineString], reach: float) -> Line
             after = [point for point, at in zip(line.coords, arc_lengths, strict=True) if at > stop]
             line = LineString([*before, *stretch.coords, *after])
     return line
+
+
+def continue_along(line: LineString, boundaries: Sequence[LineString], others: Sequence[LineString]) -> LineString:
+    """Draw a fault on along the boundaries that it ends at, if the turn is no more than 45 degrees.
+
+    A thrust that branches off an older or a younger one has slid on the floor that both share.
+
+    Parameters
+    ----------
+    line : LineString
+    boundaries : list of LineString
+        Faults that are not restored together with this one.
+    others : list of LineString
+        Faults that are; a fault that ends at one of them is not drawn on.
+    """
+    touch = 1e-6 * line.length
+    for _ in (0, 1):  # the end, then the start
+        left = list(boundaries)
+        while (end := Point(line.coords[-1])) and not any(other.distance(end) <= touch for other in others):
+            arms = [(arm, index) for index, boundary in enumerate(left) for arm in _arms(boundary, end, touch)]
+            turns = [_turn(line, arm) for arm, _ in arms]
+            if max(turns, default=-1.0) < ONWARDS:
+                break
+            arm, index = arms[int(np.argmax(turns))]
+            line = LineString([*line.coords, *arm.coords[1:]])
+            del left[index]
+        line = line.reverse()
+    return line
+
+
+def _arms(boundary: LineString, point: Point, touch: float) -> list[LineString]:
+    """The two parts of a line from a point on it to its ends, if they are longer than ``touch``."""
+    if boundary.distance(point) > touch:
+        return []
+    arc_length = boundary.project(point)
+    arms = [substring(boundary, arc_length, end) for end in (0, boundary.length)]
+    return [arm for arm in arms if arm.length > touch]
+
+
+def _turn(line: LineString, arm: LineString) -> float:
+    """Cosine of the angle between the end of a line and the start of another one."""
+    one, other = np.diff(line.coords[-2:], axis=0)[0], np.diff(arm.coords[:2], axis=0)[0]
+    return float(one @ other / (np.hypot(*one) * np.hypot(*other)))

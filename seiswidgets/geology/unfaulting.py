@@ -31,9 +31,9 @@ from seiswidgets.geology.fault_lines import (
     route_through,
 )
 from seiswidgets.geology.observations import observe_slip
-from seiswidgets.geology.picks import FAULT, HORIZON, Ends
+from seiswidgets.geology.picks import FAULT, HORIZON, TIP, Ends
 from seiswidgets.geology.segments import horizon_segments
-from seiswidgets.geology.shared_stretches import follow
+from seiswidgets.geology.shared_stretches import continue_along, follow
 from seiswidgets.geology.solve import GAUSS_NEWTON, SolverOptions, minimise, reusable_setup, warm_start
 from seiswidgets.geology.stage import Outcome, Stage
 from seiswidgets.geology.weights import Weights
@@ -46,6 +46,8 @@ class Blocks:
     Attributes
     ----------
     cut : Cut
+    lines : dict of str to LineString
+        The lines along which it is cut: the faults, drawn on along boundaries that they share.
     sides : dict of str to array, shape (2, s, 2)
         Both copies of each fault's edges.
     beyond : list of (Continuation, Continuation)
@@ -65,6 +67,7 @@ class Blocks:
     """
 
     cut: Cut
+    lines: dict[str, LineString]
     sides: dict[str, np.ndarray]
     beyond: list[tuple[Continuation, Continuation]]
     network: PickNetwork
@@ -139,10 +142,9 @@ def unfault_stage(
         vertices = nearest_rigid(mesh.vertices, vertices, mesh.vertex_areas)
     welded, vertices = weld_seams(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
     observe = partial(observe_slip, blocks, solution, domain)
-    faults_drawn = blocks.network.faults
     seconds = time.perf_counter() - began
-    outcome = Outcome(tuple(faults_drawn), solution, options.solver, seconds, observe)
-    return Stage("unfault", welded, vertices, tuple(faults_drawn.values()), domain, outcome, blocks, blocks.boundaries)
+    outcome = Outcome(tuple(blocks.lines), solution, options.solver, seconds, observe)
+    return Stage("unfault", welded, vertices, tuple(blocks.lines.values()), domain, outcome, blocks, blocks.boundaries)
 
 
 def _mesh_blocks(
@@ -153,12 +155,13 @@ def _mesh_blocks(
     fingerprint: tuple,
     ends: Mapping[str, Ends],
 ) -> Blocks:
-    lines = fault_lines(faults, domain, ends)
+    lines = fault_lines(faults, domain, ends, boundaries)
     boundaries = [follow(line, lines.values(), domain.sample) for line in boundaries]
     laid = {name: [domain.on_border(piece) for piece in pieces] for name, pieces in horizons.items()}
     network = _network(lines, laid, boundaries, domain)
     cutoffs = network.cutoffs()
-    lines = {name: _meshed_line(line, network.ends_at(name), domain) for name, line in network.faults.items()}
+    cuts = {name: _drawn_on(name, network.faults, boundaries, ends) for name in network.faults}
+    lines = {name: _meshed_line(line, network.ends_at(name), domain) for name, line in cuts.items()}
     bed_lines = {
         name: [domain.simplify(segment.line) for segment in segments] for name, segments in network.horizons.items()
     }
@@ -175,7 +178,7 @@ def _mesh_blocks(
     _check_meshed(cutoffs, beds, network)
     beyond = continuations(whole.vertices, list(edges.values()), list(sides.values()))
     return Blocks(
-        cut, sides, beyond, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint, ends
+        cut, cuts, sides, beyond, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint, ends
     )
 
 
@@ -223,6 +226,15 @@ def _inner_edges(mesh: Mesh, line: LineString, name: str, domain: RestorationDom
             where=domain.position(point),
         )
     return along[inner]
+
+
+def _drawn_on(
+    name: str, faults: Mapping[str, LineString], boundaries: Sequence[LineString], ends: Mapping[str, Ends]
+) -> LineString:
+    """A fault with the boundaries that it continues along, unless its ends are tips."""
+    if TIP in ends.get(name, ()):
+        return faults[name]
+    return continue_along(faults[name], boundaries, [line for other, line in faults.items() if other != name])
 
 
 def _own_edges(edges: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -288,7 +300,7 @@ def _terms(blocks: Blocks, weights: Weights) -> list[Term]:
         *(
             term
             for (name, sides), beyond in zip(blocks.sides.items(), blocks.beyond, strict=True)
-            for term in contacts(mesh, sides, blocks.network.faults[name], weights.slide, "contact", beyond)
+            for term in contacts(mesh, sides, blocks.lines[name], weights.slide, "contact", beyond)
         ),
         AreaBarrier(mesh),
     ]

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from shapely import LineString
 
 import seiswidgets as sw
+from seiswidgets.geology.shared_stretches import continue_along
 from tests.geology.networks import SECTION, Crossing, Slip
 
 CROSSINGS = {
@@ -88,3 +90,25 @@ def test_imbricate_thrusts_settle_without_rock_on_rock(faults):
     assert stage.report.converged
     assert not [finding for finding in stage.report.findings if finding.kind == "overlap"]
     assert max(cutoff.misfit for cutoff in stage.report.cutoffs) < 0.1 * case.section.dz
+
+
+@pytest.mark.parametrize("order", [("F1", "F2"), ("F2", "F1")], ids=["youngest first", "oldest first"])
+def test_imbricate_thrusts_restore_one_after_the_other(order):
+    """The second thrust ends on the floor of the first: it slides on along it."""
+    case = sw.synthetic.thrust(faults=2)
+    plan = sw.Plan(tuple(sw.Step("unfault", name) for name in order), spacing=120, fixed=case.fixed)
+    restored = plan.restore(case.section, case.interpretation)
+    assert restored.settled
+    assert not [finding for finding in restored.findings if finding.kind in ("overlap", "fault end", "carried")]
+    assert max(cutoff.misfit for stage in restored.stages for cutoff in stage.report.cutoffs) < 0.1 * case.section.dz
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+def test_a_fault_is_drawn_on_along_the_boundary_it_ends_at(turned):
+    floor = LineString([(0, 800), (1000, 800), (1500, 500)])
+    ramp = LineString([(1400, 100), (600, 800)][::turned])
+    along = continue_along(ramp, [floor], [])
+    np.testing.assert_array_equal(along.coords[::turned], [(1400, 100), (600, 800), (0, 800)])
+    steep = LineString([(700, 100), (600, 800)][::turned])
+    assert continue_along(steep, [floor], []) == steep
+    assert continue_along(ramp, [floor], [LineString([(600, 800), (600, 1000)])]) == ramp
