@@ -20,6 +20,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "SettingError",
         ],
         "geology": ["synthetic"],
+        "geology.checking": ["check"],
         "geology.cutoffs": ["CutOff", "cutoffs", "heave", "throw"],
         "geology.findings": ["Finding"],
         "geology.correlation": ["cross_fault_correlation", "likeness"],

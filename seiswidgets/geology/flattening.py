@@ -72,8 +72,7 @@ def flatten_stage(
     options : SolverOptions
     """
     began = time.perf_counter()
-    fingerprint = domain.fingerprint({name: pieces})
-    bed = reusable_setup(options.start, Bed, fingerprint) or _mesh_bed(domain, name, pieces, fingerprint)
+    bed = mesh_bed(domain, name, pieces, options.start)
     mesh = bed.mesh
     datum = _mean_level(mesh.vertices[bed.edges]) if datum is None else datum
     level = Level(np.unique(bed.edges), datum, len(mesh.vertices), options.row_weights.flatten * bed.reach)
@@ -89,7 +88,17 @@ def flatten_stage(
     return Stage("flatten", mesh, vertices, (), domain, outcome, bed)
 
 
-def _mesh_bed(domain: RestorationDomain, name: str, pieces: Sequence[LineString], fingerprint: tuple) -> Bed:
+def mesh_bed(domain: RestorationDomain, name: str, pieces: Sequence[LineString], start: Stage | None = None) -> Bed:
+    """Mesh a horizon; an earlier stage's set-up is reused if it is identical.
+
+    Raises
+    ------
+    PickError
+        If too little of the horizon lies inside the rock.
+    """
+    fingerprint = domain.fingerprint({name: pieces})
+    if earlier := reusable_setup(start, Bed, fingerprint):
+        return earlier
     lines = _tidy(join_pieces(pieces, domain.cell), domain, name)
     mesh = domain.mesh({(HORIZON, name): lines})
     return Bed(mesh, np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines]), fingerprint)

@@ -33,12 +33,19 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
     stretched = [
         finding for name, edges in blocks.beds.items() for finding in _stretched(name, edges, before, after, domain)
     ]
+    found = (*apart, *wide, *stretched, *observe_picks(blocks, domain))
+    return Observations(cutoffs, seams, beds, found)
+
+
+def observe_picks(blocks: "Blocks", domain: RestorationDomain) -> list[Finding]:
+    """Findings about picks as they were drawn, which need no solution."""
     faults, slips = blocks.network.faults, blocks.slips()
-    ends = fault_end_findings(blocks.lines, slips, domain, blocks.ends)
-    growth = growth_findings(faults, slips, domain)
-    extensions = extension_findings(blocks.network.horizons, list(faults), domain)
-    carried = [carried_finding(error) for error in blocks.network.refusals]
-    return Observations(cutoffs, seams, beds, (*apart, *wide, *stretched, *growth, *ends, *extensions, *carried))
+    return [
+        *growth_findings(faults, slips, domain),
+        *fault_end_findings(blocks.lines, slips, domain, blocks.ends),
+        *extension_findings(blocks.network.horizons, list(faults), domain),
+        *map(carried_finding, blocks.network.refusals),
+    ]
 
 
 def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, domain: RestorationDomain) -> Observations:

@@ -225,18 +225,20 @@ class RestorationJob:
             "start": start,
         }
         if step.kind == UNFAULT:
-            faults, horizons, others = self._faults(step), self.interpretation.horizons, self._boundaries(step)
+            faults, horizons, others = self.faults(step), self.interpretation.horizons, self.boundaries(step)
             return restoration.unfault(faults, horizons, boundaries=others, fixed=self.plan.fixed, **options)
-        return restoration.flatten(self._horizon(step), datum=step.datum, **options)
+        return restoration.flatten(self.horizon(step), datum=step.datum, **options)
 
-    def _faults(self, step: Step) -> list[Fault]:
+    def faults(self, step: Step) -> list[Fault]:
+        """The faults that a step slides along; PickError if one does not exist."""
         return [self.interpretation.fault(name) for name in step.picks] or list(self.interpretation.faults)
 
-    def _boundaries(self, step: Step) -> list[Fault]:
+    def boundaries(self, step: Step) -> list[Fault]:
         """The faults that a step does not restore."""
-        return [fault for fault in self.interpretation.faults if fault not in self._faults(step)]
+        return [fault for fault in self.interpretation.faults if fault not in self.faults(step)]
 
-    def _horizon(self, step: Step) -> Horizon:
+    def horizon(self, step: Step) -> Horizon:
+        """The horizon that a step flattens; PickError if it does not exist."""
         if len(step.picks) > 1:
             raise PickError(
                 f"one horizon is flattened at a time, but a step names {', '.join(map(repr, step.picks))}",
@@ -258,15 +260,15 @@ class RestorationJob:
         """Everything that each step depends on, apart from the section and the steps before it."""
         shared = (self.plan.solver, self.plan.weighting, self.plan.spacing, self.plan.max_iterations, self.quick)
         for step in self.steps:
-            picks: list[Fault | Horizon] = [self._horizon(step)] if step.kind == FLATTEN else [*self._faults(step)]
-            picks += [*self._boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else ()
+            picks: list[Fault | Horizon] = [self.horizon(step)] if step.kind == FLATTEN else [*self.faults(step)]
+            picks += [*self.boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else ()
             names = [field.name for field in fields(Weights) if field.name not in UNUSED_WEIGHTS[step.kind]]
             weights = [getattr(self.plan.weights, name) for name in names]
             fixed = self.plan.fixed if step.kind == UNFAULT else None
             lines = [
                 (pick.name, pick.use, pick.ends if isinstance(pick, Fault) else "", *_lines(pick)) for pick in picks
             ]
-            count = len(self._faults(step)) if step.kind == UNFAULT else 0
+            count = len(self.faults(step)) if step.kind == UNFAULT else 0
             yield step.kind, step.datum, fixed, count, lines, weights, shared
 
 

@@ -1,9 +1,9 @@
 """The restoration of a section: a chain of stages, each made from the one before."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Unpack
+from typing import TypeVar, Unpack
 
 import numpy as np
 import shapely
@@ -15,9 +15,9 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.clipping import CLIPPED, clip_findings
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.flattening import flatten_stage
+from seiswidgets.geology.flattening import flatten_stage, mesh_bed
 from seiswidgets.geology.passive import carried_finding, carry_refused, constraining, flaws
-from seiswidgets.geology.picks import Fault, Horizon, both_ends
+from seiswidgets.geology.picks import Ends, Fault, Horizon, both_ends
 from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
@@ -31,6 +31,11 @@ from seiswidgets.geology.transfer import (
     picture,
 )
 from seiswidgets.geology.unfaulting import unfault_stage
+
+Lines = dict[str, np.ndarray]
+Beds = dict[str, list[LineString]]
+EndsOfFaults = dict[str, Ends]
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,42 +143,72 @@ class Restoration:
             If ``progress`` returned False.
         """
         solver_options = SolverOptions.from_keywords("unfault", options)
+        held = None if fixed is None else carried_point(self.original, self.stages, fixed)
+
+        def slide_blocks(lines: Lines, beds: Beds, walls: Lines, ends: EndsOfFaults) -> Stage:
+            return unfault_stage(self.domain, lines, beds, held, solver_options, walls, ends=ends)
+
+        stage, notes = self.with_usable_picks(slide_blocks, faults, horizons, boundaries)
+        return self._with_stage(replace(stage, weights=solver_options.weights, fixed=fixed), notes)
+
+    def with_usable_picks(
+        self,
+        make: Callable[[Lines, Beds, Lines, EndsOfFaults], Made],
+        faults: Fault | Sequence[Fault],
+        horizons: Horizon | Sequence[Horizon] = (),
+        boundaries: Fault | Sequence[Fault] = (),
+    ) -> tuple[Made, tuple[Finding, ...]]:
+        """Call a function with the lines of picks after the stages so far, without the picks that it refuses.
+
+        Parameters
+        ----------
+        make : callable(faults, horizons, boundaries, ends)
+            Lines in metres of rock by name; a PickError about one of them refuses it.
+        faults, horizons, boundaries
+            As for `unfault`.
+
+        Returns
+        -------
+        made : object
+            The result of the function.
+        notes : tuple of Finding
+            About picks that were clipped, refused, or can only be carried.
+
+        Raises
+        ------
+        PickError
+            If no fault can be used.
+        """
         named_faults = validation.named_picks(faults, Fault, "fault")
         named_horizons = validation.named_picks(horizons, Horizon, "horizon")
+        named_boundaries = validation.named_picks(boundaries, Fault, "fault")
         if not named_faults:
             raise PickError("there is no fault to unfault; give at least one")
-        named_boundaries = validation.named_picks(boundaries, Fault, "fault")
-        held = None if fixed is None else carried_point(self.original, self.stages, fixed)
         others = {name: fault for name, fault in named_boundaries.items() if fault not in named_faults.values()}
         walls = carried_boundaries(self.original, self.stages, constraining(others))
 
-        def slide_blocks(faults: dict[str, Fault], horizons: dict[str, Horizon]) -> Stage:
+        def make_of(faults: dict[str, Fault], horizons: dict[str, Horizon]) -> Made:
             lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in faults.items()}
             beds = {
                 name: carried_horizon(self.original, self.stages, bed, flawless=True) for name, bed in horizons.items()
             }
-            ends = {name: both_ends(fault.ends) for name, fault in faults.items()}
-            return unfault_stage(self.domain, lines, beds, held, solver_options, walls, ends=ends)
+            return make(lines, beds, walls, {name: both_ends(fault.ends) for name, fault in faults.items()})
 
         picks: list[Fault | Horizon] = [*named_faults.values(), *named_horizons.values()]
-        faults_used, horizons_used = constraining(named_faults), constraining(named_horizons)
-        if not faults_used:
-            raise next(
-                iter(flaws(picks)), PickError("no fault is used as a constraint; set the use of one to 'constrain'")
-            )
-        stage, refusals = carry_refused(slide_blocks, faults_used, horizons_used)
-        stage = replace(stage, weights=solver_options.weights, fixed=fixed)
-        return self._with_stage(stage, picks, refusals)
+        used = constraining(named_faults), constraining(named_horizons)
+        if not used[0]:
+            unused = PickError("no fault is used as a constraint; set the use of one to 'constrain'")
+            raise next(iter(flaws(picks)), unused)
+        made, refusals = carry_refused(make_of, *used)
+        return made, (*self._notes(picks), *map(carried_finding, refusals))
 
-    def _with_stage(
-        self, stage: Stage, picks: Sequence[Fault | Horizon], refusals: Sequence[PickError] = ()
-    ) -> "Restoration":
-        """Add a stage, with notes about the picks that it clipped, refused, or could only carry."""
+    def _notes(self, picks: Sequence[Fault | Horizon]) -> tuple[Finding, ...]:
+        """Notes about picks that are clipped, or that can only be carried."""
         flawed = [self._brought_here(carried_finding(flaw)) for flaw in flaws(picks)]
-        clipped = self._clipped(*(pick for pick in picks if pick.constrains))
-        return replace(
-            self, stages=(*self.stages, stage.with_notes(*clipped, *map(carried_finding, refusals), *flawed))
-        )
+        return (*self._clipped(*(pick for pick in picks if pick.constrains)), *flawed)
+
+    def _with_stage(self, stage: Stage, notes: Sequence[Finding]) -> "Restoration":
+        return replace(self, stages=(*self.stages, stage.with_notes(*notes)))
 
     def _brought_here(self, finding: Finding) -> Finding:
         """A finding with its position after the stages so far."""
@@ -207,13 +242,22 @@ class Restoration:
         """
         solver_options = SolverOptions.from_keywords("flatten", options)
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
-        if horizon.flaw and None not in horizon.flaws:
-            raise horizon.flaw
+        pieces = self._bed_lines(horizon)
         if datum is not None:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
-        pieces = carried_horizon(self.original, self.stages, horizon, flawless=True)
         stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options)
-        return self._with_stage(replace(stage, weights=solver_options.weights), [horizon])
+        return self._with_stage(replace(stage, weights=solver_options.weights), self._notes([horizon]))
+
+    def check_flattening(self, horizon: Horizon) -> tuple[Finding, ...]:
+        """Findings about a horizon to flatten as it was drawn; PickError if it cannot be used."""
+        mesh_bed(self.domain, horizon.name, self._bed_lines(horizon))
+        return self._notes([horizon])
+
+    def _bed_lines(self, horizon: Horizon) -> list[LineString]:
+        """The lines of a horizon after the stages so far, without pieces that have a flaw."""
+        if horizon.flaw and None not in horizon.flaws:
+            raise horizon.flaw
+        return carried_horizon(self.original, self.stages, horizon, flawless=True)
 
     def _clipped(self, *picks: Fault | Horizon) -> tuple[Finding, ...]:
         """Notes about picks that stick out of the section, unless an earlier stage has them."""

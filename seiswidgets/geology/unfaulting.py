@@ -125,12 +125,8 @@ def unfault_stage(
         See `Fault.ends`.
     """
     began = time.perf_counter()
-    others = [LineString(points) for points in boundaries.values()]
-    drawn = {name: [LineString(points)] for name, points in faults.items()}
-    fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends
-    blocks = reusable_setup(options.start, Blocks, fingerprint)
-    blocks = blocks or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends)
-    mesh, free = blocks.mesh, _free(blocks.mesh, fixed, domain)
+    blocks = mesh_blocks(domain, faults, horizons, boundaries, ends, options.start)
+    mesh, free = blocks.mesh, free_vertices(blocks.mesh, fixed, domain)
     terms = _terms(blocks, options.row_weights)
     start = warm_start(mesh, free, options.start)
     if start is None:  # the paper starts its own solver from the unmoved mesh
@@ -145,6 +141,28 @@ def unfault_stage(
     seconds = time.perf_counter() - began
     outcome = Outcome(tuple(blocks.lines), solution, options.solver, seconds, observe)
     return Stage("unfault", welded, vertices, tuple(blocks.lines.values()), domain, outcome, blocks, blocks.boundaries)
+
+
+def mesh_blocks(
+    domain: RestorationDomain,
+    faults: Mapping[str, np.ndarray],
+    horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Mapping[str, np.ndarray],
+    ends: Mapping[str, Ends] = NO_ENDS,
+    start: Stage | None = None,
+) -> Blocks:
+    """Match faults and horizons, and mesh them; an earlier stage's set-up is reused if it is identical.
+
+    Raises
+    ------
+    PickError
+        If a pick cannot be used as it was drawn.
+    """
+    others = [LineString(points) for points in boundaries.values()]
+    drawn = {name: [LineString(points)] for name, points in faults.items()}
+    fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends
+    earlier = reusable_setup(start, Blocks, fingerprint)
+    return earlier or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends)
 
 
 def _mesh_blocks(
@@ -270,7 +288,7 @@ def _stitches(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]
     return np.array(ends, dtype=int)
 
 
-def _free(mesh: Mesh, fixed: np.ndarray | None, domain: RestorationDomain) -> np.ndarray:
+def free_vertices(mesh: Mesh, fixed: np.ndarray | None, domain: RestorationDomain) -> np.ndarray:
     """The vertices that may move: all, or all but those of the block that holds a point."""
     if fixed is None:
         return np.ones(len(mesh.vertices), bool)

@@ -167,6 +167,10 @@ class PickEditor:
         """Show or hide a pick."""
         self._draw(f"{'show' if visible else 'hide'} {name}", self.drawing.with_visibility(kind, name, visible))
 
+    def use(self, kind: str, name: str, use: str) -> None:
+        """Let a pick constrain the restoration, only carry it along, or ignore it."""
+        self._draw(f"{use} {name}", self.drawing.with_use(kind, name, use))
+
     def delete(self, kind: str, name: str) -> None:
         """Delete a pick; undo brings it back."""
         self._draw(f"delete {name}", self.drawing.without_pick(kind, name))

@@ -1,7 +1,12 @@
 """Restoration of a workspace while it is edited, and display of the result."""
 
+from dataclasses import replace
+
 from traitlets import Bunch
 
+from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.geology.checking import check
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.interaction.document import Document
 from seiswidgets.widgets.histogram import DeformationHistogram
@@ -168,8 +173,18 @@ class LiveRestoration:
         """Show an error: as an alert if the user pressed Restore, as a hint while picks are being drawn."""
         text = in_words(error)
         (self._status.alert if self._requested else self._status.hint)(text)
-        self._picker.complain(error, "problem" if self._requested else "note")
+        self._picker.show_findings(self._check(error))
         self._set_outdated(True)
+
+    def _check(self, error: Exception) -> list[Finding]:
+        """All findings about the picks, not only the first that has prevented a step; mere notes while drawing."""
+        workspace = self._workspace
+        if not isinstance(error, SeiswidgetsError):
+            return []
+        findings = check(workspace.section, workspace.interpretation, workspace.plan)
+        if error.pick not in {finding.pick for finding in findings}:
+            findings.append(Finding("problem", error.kind, error.text, error.pick))
+        return findings if self._requested else [replace(finding, severity="note") for finding in findings]
 
     def _show_outdated(self) -> None:
         self._set_outdated(True)

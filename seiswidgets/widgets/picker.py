@@ -8,7 +8,6 @@ from ipywidgets import BoundedFloatText, Box, Button, Dropdown, HBox, Layout, To
 from traitlets import Any as AnyTrait
 from traitlets import Bool, Bunch, Enum, Float, Instance, observe, validate
 
-from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.geology import validation
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
@@ -142,11 +141,6 @@ class Picker(WithParts, VBox):
         pane.take_keys(KEYS)
         pane.on_gesture(lambda gesture: self.comm is not None and self._handle(gesture))
         self.refresh()
-
-    def complain(self, error: Exception, severity: str = "problem") -> None:
-        """Show an error beside the pick that it concerns, instead of earlier messages."""
-        pick = error.pick if isinstance(error, SeiswidgetsError) else None
-        self._show_messages({pick: (severity, str(error))} if pick else {})
 
     def show_findings(self, findings: Iterable[Finding]) -> None:
         """Show beside each pick the worst finding about it, instead of earlier messages."""

@@ -37,7 +37,7 @@ def lines(picker):
 
 
 def rows(picker, kind):
-    """The rows of the list: choose, colour, visible, name, delete; and the message."""
+    """The rows of the list: choose, colour, visible, name, use, delete; and the message."""
     shown = [row for row in picker.list._rows[kind] if row in picker.list.children]
     return [(*row.children[0].children, row.children[1]) for row in shown]
 
@@ -95,7 +95,7 @@ def test_dragging_says_so_and_tells_each_place(drawn):
 
 
 def test_the_list_names_colours_hides_and_deletes(drawn):
-    _, colour, visible, name, delete, _ = rows(drawn, "fault")[0]
+    _, colour, visible, name, use, delete, _ = rows(drawn, "fault")[0]
     name.value = NASTY
     assert drawn.interpretation.faults[0].name == NASTY
     assert drawn.pane.layer.strokes[0]["label"] == NASTY
@@ -104,23 +104,27 @@ def test_the_list_names_colours_hides_and_deletes(drawn):
     visible.value = False
     assert len(drawn.interpretation.faults) == 1
     assert "fault" not in {stroke["label"] for stroke in drawn.pane.layer.strokes}
+    use.value = "carry"
+    assert not drawn.interpretation.faults[0].constrains
+    assert drawn.workspace.history.next_undo.label == f"carry {NASTY}"
     delete.click()
     assert not drawn.interpretation.faults
-    for _ in range(4):
+    for _ in range(5):
         drawn.editor.undo()
     drawn.refresh()
     assert rows(drawn, "fault")[0][3].value == "F1"
+    assert rows(drawn, "fault")[0][4].value == "constrain"
     assert drawn.pane.layer.strokes[0]["colour"] != "#123456"
 
 
 def test_what_is_wrong_with_a_pick_is_said_beside_it(drawn):
-    *_, name, _, message = rows(drawn, "fault")[0]
+    *_, name, _, _, message = rows(drawn, "fault")[0]
     name.value = " "
     assert "must not be empty" in message.value
     drawn.refresh()
     assert name.value == "F1"
     assert message.layout.display == "none"
-    drawn.complain(sw.PickError(f"this one is odd, and {NASTY}", pick="H1"))
+    drawn.show_findings([sw.Finding("problem", "odd", f"this one is odd, and {NASTY}", pick="H1")])
     assert rows(drawn, "fault")[0][-1].layout.display == "none"
     *_, message = rows(drawn, "horizon")[0]
     assert "&lt;img" in message.value

@@ -3,17 +3,21 @@
 from collections.abc import Callable
 from html import escape
 
-from ipywidgets import HTML, Button, ColorPicker, HBox, Layout, Text, ToggleButton, VBox, Widget
+from ipywidgets import HTML, Button, ColorPicker, Dropdown, HBox, Layout, Text, ToggleButton, VBox, Widget
 from traitlets import Bunch
 
 from seiswidgets.errors import SeiswidgetsError
-from seiswidgets.geology.picks import FAULT, HORIZON
+from seiswidgets.geology.picks import FAULT, HORIZON, USES
 from seiswidgets.interaction.drawing import Pick
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.severity import remark
 
 TITLES = {FAULT: "Faults", HORIZON: "Horizons"}
+USE_TOOLTIPS = {
+    FAULT: "constrain: blocks slide along it; carry: it moves with the rock and cuts nothing; ignore: it is left out",
+    HORIZON: "constrain: it is matched across faults; carry: it only moves with the rock; ignore: it is left out",
+}
 NONE_YET = " <i>none yet: choose {} and click along one</i>"
 NARROW = {"width": "34px", "min_width": "34px", "padding": "0"}  # not a Layout, which all apps would share
 
@@ -76,7 +80,7 @@ class PickRow(VBox):
 
     Attributes
     ----------
-    select, colour, visible, name, delete : ToggleButton, ColorPicker, ToggleButton, Text, Button
+    select, colour, visible, name, use, delete : ToggleButton, ColorPicker, ToggleButton, Text, Dropdown, Button
         Controls of the pick.
     message : HTML
         The worst finding about it, or an error.
@@ -88,26 +92,29 @@ class PickRow(VBox):
         self.colour = ColorPicker(concise=True, layout=Layout(width="32px", min_width="32px"))
         self.visible = ToggleButton(icon="eye", layout=NARROW)
         self.name = Text(continuous_update=False, layout=Layout(flex="1 1 auto", width="auto", min_width="60px"))
+        self.use = Dropdown(options=USES, layout=Layout(width="92px", flex="0 0 auto"))
         self.delete = Button(icon="trash", layout=NARROW)
         self.message = HTML(layout=Layout(display="none"))
-        line = HBox([self.select, self.colour, self.visible, self.name, self.delete])
+        line = HBox([self.select, self.colour, self.visible, self.name, self.use, self.delete])
         super().__init__([line, self.message])
         self.select.observe(self._take_selected, "value")
         self.colour.observe(self._take_colour, "value")
         self.visible.observe(self._take_visible, "value")
         self.name.observe(self._take_name, "value")
+        self.use.observe(self._take_use, "value")
         self.delete.on_click(lambda _: self._edit(owner.editor.delete))
 
     def update(self, pick: Pick, selected: bool, complaint: tuple[str, str] | None) -> None:
         """Show a pick, whether it is selected, and its complaint."""
         self._pick = pick  # first, so that the controls that show it see no difference and make no edit
         self.name.value, self.visible.value, self.select.value = pick.name, pick.visible, selected
-        self.colour.value = pick.colour
+        self.colour.value, self.use.value = pick.colour, pick.use
         self.visible.icon = "eye" if pick.visible else "eye-slash"
         action = "hide" if pick.visible else "show"
         self.select.tooltip = f"select this {pick.kind}; the next line drawn becomes a piece of a selected horizon"
         self.visible.tooltip = f"{action} this {pick.kind}; hidden picks are restored too"
         self.name.tooltip = f"name of this {pick.kind}"
+        self.use.tooltip = USE_TOOLTIPS[pick.kind]
         self.delete.tooltip = f"delete this {pick.kind}; undo brings it back"
         self._show_message(remark(*complaint) if complaint else "")
 
@@ -136,3 +143,7 @@ class PickRow(VBox):
     def _take_name(self, change: Bunch) -> None:
         if change.new != self._pick.name:
             self._edit(self._owner.editor.rename, change.new)
+
+    def _take_use(self, change: Bunch) -> None:
+        if change.new != self._pick.use:
+            self._edit(self._owner.editor.use, change.new)

@@ -1,0 +1,91 @@
+"""Checks of picks and a plan before anything is solved: all findings at once."""
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+import numpy as np
+import shapely
+
+from seiswidgets.errors import PickError, SeiswidgetsError
+from seiswidgets.geology.findings import Finding, worst_first
+from seiswidgets.geology.observations import observe_picks
+from seiswidgets.geology.picks import Horizon, Interpretation
+from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob, Step
+from seiswidgets.geology.restoration import Beds, EndsOfFaults, Lines, Restoration
+from seiswidgets.geology.section import Section
+from seiswidgets.geology.transfer import carried_point
+from seiswidgets.geology.unfaulting import Blocks, free_vertices, mesh_blocks
+from seiswidgets.geology.validation import checked_kind
+
+
+def check(section: Section, interpretation: Interpretation, plan: Plan | None = None) -> list[Finding]:
+    """Everything about picks and a plan that deserves a look, found without solving; problems first.
+
+    Each step is checked on the present-day section. A problem prevents its step, or makes its result doubtful; the
+    text of a warning says what becomes of the pick.
+
+    Parameters
+    ----------
+    section : Section
+    interpretation : Interpretation
+    plan : Plan, optional
+        By default all faults, then the first horizon.
+
+    Examples
+    --------
+    >>> import seiswidgets as sw
+    >>> case = sw.synthetic.planar_fault()
+    >>> sw.check(case.section, case.interpretation)
+    []
+    """
+    checked_kind(interpretation, Interpretation, "interpretation")
+    job = RestorationJob(section, interpretation, plan or Plan())
+    found = [*_crossing(section, [bed for bed in interpretation.horizons if bed.constrains])]
+    try:
+        start = Restoration(section, job.plan.spacing)
+        for step in job.steps:
+            found += _check_step(start, job, step)
+    except SeiswidgetsError as error:
+        found.append(_refusal(error))
+    return list(worst_first(dict.fromkeys(found)))
+
+
+def _check_step(start: Restoration, job: RestorationJob, step: Step) -> Sequence[Finding]:
+    try:
+        if step.kind == UNFAULT:
+            return _check_unfaulting(start, job, step)
+        return start.check_flattening(job.horizon(step))
+    except SeiswidgetsError as error:
+        return [_refusal(error)]
+
+
+def _check_unfaulting(start: Restoration, job: RestorationJob, step: Step) -> Sequence[Finding]:
+    def mesh(lines: Lines, beds: Beds, walls: Lines, ends: EndsOfFaults) -> Blocks:
+        return mesh_blocks(start.domain, lines, beds, walls, ends)
+
+    faults, boundaries = job.faults(step), job.boundaries(step)
+    blocks, notes = start.with_usable_picks(mesh, faults, job.interpretation.horizons, boundaries)
+    found = [*notes, *observe_picks(blocks, start.domain)]
+    if job.plan.fixed is not None:
+        try:
+            free_vertices(blocks.mesh, carried_point(start.original, (), job.plan.fixed), start.domain)
+        except PickError as error:
+            found.append(_refusal(error))
+    return found
+
+
+def _refusal(error: SeiswidgetsError) -> Finding:
+    return Finding("problem", error.kind or "refused", error.text, error.pick, error.where)
+
+
+def _crossing(section: Section, horizons: Sequence[Horizon]) -> Iterator[Finding]:
+    """A finding for each pair of horizons that cross."""
+    lines = [shapely.MultiLineString(list(bed.pieces)) for bed in horizons]
+    for (bed, line), (other, second) in combinations(zip(horizons, lines, strict=True), 2):
+        if line.crosses(second):
+            x, z = np.array(line.intersection(second).representative_point().coords[0]).tolist()
+            text = (
+                f"horizon {other.name!r} crosses horizon {bed.name!r} near {section.where((x, z))}, which beds do not; "
+                "end one of them there, or let it only be carried"
+            )
+            yield Finding("warning", "crossing", text, other.name, (x, z))
