@@ -3,6 +3,7 @@ import os
 os.environ["MPLBACKEND"] = "Agg"  # no windows; before anything imports matplotlib
 
 import gc
+import sys
 import tempfile
 from pathlib import Path
 
@@ -13,6 +14,15 @@ from tests.leftovers import nothing_left
 ROOT = Path(__file__).parents[1]
 PLACES = [Path(folder) for name in ("seiswidgets", "tests", "notebooks") for folder, *_ in os.walk(ROOT / name)]
 CODE = [folder for folder in PLACES if folder.name != "__pycache__"]
+
+
+def pytest_addoption(parser):
+    parser.addoption("--without-triangle", action="store_true", help="test as where Triangle is not installed")
+
+
+def pytest_configure(config):
+    if config.getoption("--without-triangle"):
+        sys.modules["triangle"] = None  # importing it raises ImportError
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,23 +1,18 @@
-"""Triangulation of an outline and the lines inside it. The only module that uses Triangle.
-
-J. R. Shewchuk, Triangle: engineering a 2D quality mesh generator and Delaunay triangulator, 1996.
-"""
+"""Triangulation of an outline and the lines inside it, by Triangle or CDT."""
 
 from collections.abc import Sequence
 
 import numpy as np
 import shapely
-import triangle
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 from shapely import LineString, MultiPolygon, Polygon
 
 from seiswidgets.core.linework import MERGED, planar_graph
 from seiswidgets.core.mesh import Mesh, edge_keys, triangle_areas
+from seiswidgets.core.meshers import fill
 from seiswidgets.errors import Keyword, SettingError
 
-LEAST_ANGLE = 30  # degrees; Triangle is guaranteed to terminate up to about 33
-LARGEST_AREA = 0.7  # of the squared spacing; the mean is then close to the equilateral triangle's 0.43
 DENSITY = 1.15  # vertices per squared spacing
 TOO_MANY = 250_000
 TOO_FEW = 30
@@ -61,10 +56,8 @@ def triangulate(
     most = most or min(CROWDED * expected + EXTRA, TOO_MANY)
     vertices, segments = planar_graph(outline, lines, spacing)
     origin = np.array(outline.bounds[:2])
-    drawing = {"vertices": (vertices - origin) / spacing, "segments": segments}  # Triangle is most accurate near 1
-    result = triangle.triangulate(drawing, f"pq{LEAST_ANGLE}a{LARGEST_AREA}S{most}")
-    triangles = result.get("triangles", np.empty((0, 3), int))
-    vertices = result["vertices"] * spacing + origin
+    filled, triangles = fill((vertices - origin) / spacing, segments, most)
+    vertices = filled * spacing + origin
     if len(vertices) >= most:
         raise CrowdedError(_shortest_side(vertices[triangles]))
     return _mesh(vertices, _inside(triangles, vertices, outline), spacing)

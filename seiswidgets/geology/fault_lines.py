@@ -38,15 +38,17 @@ def merge_close_points(points: np.ndarray, spacing: float) -> np.ndarray:
     return np.array(kept)
 
 
-def resample_fine(points: np.ndarray, tolerance: float, step: float) -> np.ndarray:
-    """Replace points that lie closer together than a mesh can follow, if any do, by fewer.
+def resample_fine(points: np.ndarray, domain: RestorationDomain) -> np.ndarray:
+    """Replace points of a drawn fault that lie closer together than a mesh can follow, if any do, by fewer.
 
-    Points within the tolerance of a straight line are left out. Where the others still lie closer together than
-    ``step``, each group of them is replaced by its mean, which also smooths the jitter of a hand. The ends stay.
+    Points within the domain's tolerance of a straight line are left out. Where the others still lie too close together,
+    each group of them is replaced by its mean, which also smooths the jitter of a hand. The ends stay.
     """
-    if np.hypot(*np.diff(points, axis=0).T).min() >= step:
+    lengths = np.hypot(*np.diff(points, axis=0).T)
+    step = FINE * min(domain.spacing, lengths.sum() / EDGES)
+    if lengths.min() >= step:
         return points
-    points = shapely.get_coordinates(LineString(points).simplify(tolerance))
+    points = shapely.get_coordinates(LineString(points).simplify(domain.tolerance))
     groups = [[points[0]]]
     for point in points[1:]:
         if np.hypot(*(point - groups[-1][0])) < step:
@@ -105,7 +107,6 @@ def _line(name: str, points: np.ndarray, domain: RestorationDomain) -> LineStrin
             pick=name,
             where=domain.position(points[0]),
         )
-    points = resample_fine(points, domain.tolerance, min(FINE * domain.spacing, FINE * length / EDGES))
     _check_onward(name, points, domain)
     return domain.simplify(LineString(points)) if domain.quick else LineString(points)
 

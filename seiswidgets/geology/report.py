@@ -115,6 +115,8 @@ class Report:
         Observations worth showing, problems first: a solver that did not settle; cut-offs, contacts and levels that
         are more than a tenth of a sample off; rock on rock, and gaps; beds that changed their length; faults that end
         inside, or whose tip the section folds about; offsets that grow downwards.
+    mesher : str
+        "Triangle", or "CDT" where that is not installed.
     x_unit, z_unit : str
     sample : float
         Height of a sample, in metres.
@@ -139,6 +141,7 @@ class Report:
     beds: tuple[BedReport, ...] = ()
     motions: tuple[MotionReport, ...] = ()
     findings: tuple[Finding, ...] = ()
+    mesher: str = ""
     x_unit: str = "m"
     z_unit: str = "m"
     sample: float = 1.0
@@ -191,7 +194,7 @@ class Report:
                 for seam in self.seams
             ),
             ("solver", f"{self.solver}: {'settled' if self.converged else 'did NOT settle'} in {iterations}"),
-            ("mesh", f"{self.vertices} vertices, {self.triangles} triangles, {self.flipped} flipped"),
+            ("mesh", f"{self.vertices} vertices, {self.triangles} triangles by {self.mesher}, {self.flipped} flipped"),
             ("energy (m²)", ", ".join(f"{name} {value:.2g}" for name, value in self.energy.items())),
         ]
 

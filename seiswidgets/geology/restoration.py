@@ -184,14 +184,14 @@ class Restoration:
         named_boundaries = validation.named_picks(boundaries, Fault, "fault")
         if not named_faults:
             raise PickError("there is no fault to unfault; give at least one")
+        chain = self.original, self.stages
+        first = self.stages[0].domain if self.stages else self.domain
         others = {name: fault for name, fault in named_boundaries.items() if fault not in named_faults.values()}
-        walls = carried_boundaries(self.original, self.stages, constraining(others))
+        walls = carried_boundaries(*chain, constraining(others), first)
 
         def make_of(faults: dict[str, Fault], horizons: dict[str, Horizon]) -> Made:
-            lines = {name: carried_fault(self.original, self.stages, fault) for name, fault in faults.items()}
-            beds = {
-                name: carried_horizon(self.original, self.stages, bed, flawless=True) for name, bed in horizons.items()
-            }
+            lines = {name: carried_fault(*chain, fault, first) for name, fault in faults.items()}
+            beds = {name: carried_horizon(*chain, bed, flawless=True) for name, bed in horizons.items()}
             return make(lines, beds, walls, {name: both_ends(fault.ends) for name, fault in faults.items()})
 
         picks: list[Fault | Horizon] = [*named_faults.values(), *named_horizons.values()]
@@ -395,7 +395,8 @@ class Restoration:
     def carried(self, pick: Fault | Horizon) -> list[np.ndarray]:
         """Lines of a fault or a horizon after all stages, each of shape (n, 2), in the section's units."""
         if isinstance(pick, Fault):
-            lines = [LineString(carried_fault(self.original, self.stages, pick))]
+            first = self.stages[0].domain if self.stages else None
+            lines = [LineString(carried_fault(self.original, self.stages, pick, first))]
         else:
             lines = carried_horizon(self.original, self.stages, pick)
         return [self.original.from_rock(shapely.get_coordinates(line)) for line in lines]

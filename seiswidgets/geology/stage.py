@@ -14,6 +14,7 @@ from shapely.ops import substring
 from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.core.meshers import chosen_mesher
 from seiswidgets.core.rigid import part_of_motion
 from seiswidgets.core.seams import new_holes, outline
 from seiswidgets.core.solver import Solution
@@ -156,6 +157,7 @@ class Stage:
             kind=self.kind,
             picks=outcome.picks,
             solver=outcome.solver,
+            mesher=chosen_mesher(),
             vertices=len(self.mesh.vertices),
             triangles=len(self.mesh.triangles),
             iterations=solution.iterations,

@@ -13,14 +13,27 @@ from seiswidgets.core.resampling import resample
 from seiswidgets.errors import PickError
 from seiswidgets.geology import validation
 from seiswidgets.geology.clipping import clip_line
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_lines import resample_fine
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
 
 
-def carried_fault(original: Section, stages: Sequence[Stage], fault: Fault) -> np.ndarray:
-    """The points of a fault after some stages, shape (n, 2); what sticks out of the section is left out."""
-    lines = _carried_parts(original, stages, fault)
+def carried_fault(
+    original: Section, stages: Sequence[Stage], fault: Fault, domain: RestorationDomain | None = None
+) -> np.ndarray:
+    """The points of a fault after some stages, shape (n, 2); what sticks out of the section is left out.
+
+    Parameters
+    ----------
+    original : Section
+    stages : list of Stage
+    fault : Fault
+    domain : RestorationDomain, optional
+        The rock before the first stage, for which the fault is resampled if it was digitised finely.
+    """
+    lines = _carried_parts(original, stages, fault, domain)
     if not lines and not clip_line(original, fault.points):
         raise _outside(original, f"fault {fault.name!r}", fault)
     if not lines:
@@ -32,15 +45,18 @@ def carried_fault(original: Section, stages: Sequence[Stage], fault: Fault) -> n
 
 
 def carried_boundaries(
-    original: Section, stages: Sequence[Stage], faults: Mapping[str, Fault]
+    original: Section, stages: Sequence[Stage], faults: Mapping[str, Fault], domain: RestorationDomain
 ) -> dict[str, np.ndarray]:
     """The points of faults after some stages, each of shape (n, 2), without those of which nothing is left."""
-    parts = {name: _carried_parts(original, stages, fault) for name, fault in faults.items()}
+    parts = {name: _carried_parts(original, stages, fault, domain) for name, fault in faults.items()}
     return {name: shapely.get_coordinates(lines) for name, lines in parts.items() if lines}
 
 
-def _carried_parts(original: Section, stages: Sequence[Stage], fault: Fault) -> list[LineString]:
-    lines = [LineString(points) for points in clip_line(original, fault.points)]
+def _carried_parts(
+    original: Section, stages: Sequence[Stage], fault: Fault, domain: RestorationDomain | None
+) -> list[LineString]:
+    parts = clip_line(original, fault.points)
+    lines = [LineString(points if domain is None else resample_fine(points, domain)) for points in parts]
     for stage in stages:
         lines = [moved for line in lines for moved in stage.carried_fault(line)]
     return lines

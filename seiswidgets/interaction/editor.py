@@ -8,10 +8,11 @@ Click                  fault, horizon: adds a vertex to the draft line, or begin
                        selected, it becomes a further piece of that one. Look: selects. Block: sets the held point;
                        on the point, removes it
 Click on a line        inserts a vertex, if there is no draft line
-Drag                   moves a vertex; of a cut-off, the end of the piece along the fault. Horizon vertices snap
+Drag                   moves a vertex; of a cut-off, the end of the piece along the fault. Horizon vertices snap, and
+                       so do ends of faults that come within ten pixels of the border or another fault
 Shift                  while clicking: begins a line whatever lies there. While dragging: no snapping, and off the fault
 Ctrl-click             removes a vertex
-Double-click           finishes the draft line
+Double-click           finishes the draft line; the ends of a fault snap
 Enter                  at the keyboard cursor: puts a vertex; on the last vertex, or without cursor: finishes. With no
                        draft line and no cursor: shows the cursor
 Space                  puts a vertex at the keyboard cursor (without one, it is left to the pane, which pans)
@@ -125,7 +126,7 @@ class PickEditor:
         if mode not in MODES:
             raise SettingError(f"mode must be one of {', '.join(MODES)}, but is {mode!r}")
         self.settle()
-        self._become(self.state.enter(mode))
+        self._become(self.state.enter(mode, self._tools))
 
     def undo(self) -> bool:
         """Undo the last edit; False if there is none."""
@@ -142,7 +143,7 @@ class PickEditor:
 
     def finish(self) -> None:
         """Turn the draft line into a pick, or a piece of one, and select it; a single point stays a draft."""
-        self._become(self.state.finish())
+        self._become(self.state.finish(self._tools))
 
     def select(self, kind: str, name: str) -> None:
         """Select a pick; PickError if there is none of that name."""
@@ -231,7 +232,7 @@ class PickEditor:
             self.history.amend(**changes)
         else:
             self.history.edit(label, selection, **changes)
-            if before.drawing.draft and not state.drawing.draft and state.drawing == before.finish().drawing:
+            if before.drawing.draft and not state.drawing.draft and state.drawing == before.finish(self._tools).drawing:
                 self.history.close_draft(_closed)
         return True
 

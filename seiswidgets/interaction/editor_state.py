@@ -11,6 +11,7 @@ from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Point, Points
 from seiswidgets.interaction.projection import PaneProjection
+from seiswidgets.interaction.snapping import END_REACH, snap_to_lines
 from seiswidgets.interaction.viewport import Viewport
 
 LOOK, BLOCK = "look", "block"
@@ -71,6 +72,13 @@ class Tools:
         point = self.inside(point)
         return self.inside(self.snap(point)) if kind == HORIZON and self.snap and not free else point
 
+    def snap_end(self, point: Point, drawing: Drawing, name: str | None) -> Point:
+        """Return the position of a fault's end: on the border, or on another fault, if that is near."""
+        x_min, x_max, z_min, z_max = self.viewport.section.extent
+        border = [(x_min, z_min), (x_max, z_min), (x_max, z_max), (x_min, z_max), (x_min, z_min)]
+        others = [pick.pieces[0] for pick in drawing.picks if pick.kind == FAULT and pick.visible and pick.name != name]
+        return self.inside(snap_to_lines(point, [border, *others], self.viewport.pixel))
+
     def inside(self, point: ArrayLike) -> Point:
         """Return the nearest point of the section."""
         x_min, x_max, z_min, z_max = self.viewport.section.extent
@@ -130,12 +138,12 @@ class EditorState:
         """End a drag where it is."""
         return self.change(drag=None)
 
-    def enter(self, mode: str) -> "EditorState":
+    def enter(self, mode: str, tools: Tools) -> "EditorState":
         """Change the mode; a draft line is finished, or dropped if it is a single point."""
         state = self.settle()
         if mode == state.mode:
             return state
-        state = state.finish()
+        state = state.finish(tools)
         return (state.cancel() if state.drawing.draft else state).change(mode=mode, cursor=None)
 
     def add(
@@ -156,13 +164,27 @@ class EditorState:
             drawing = self.drawing.with_draft_continued(projection.path(draft.points[-1], point))
         return self.draw(drawing, drawing.draft_end if select else None)
 
-    def finish(self) -> "EditorState":
-        """Turn the draft line into a pick, or a piece of one, and select it; a single point stays a draft."""
+    def finish(self, tools: Tools | None = None) -> "EditorState":
+        """Turn the draft line into a pick, or a piece of one, and select it; a single point stays a draft.
+
+        With tools, the ends of a fault snap.
+        """
         draft = self.drawing.draft
-        drawing, name = self.drawing.with_draft_finished()
+        drawing, name = (self._with_ends_snapped(tools) if tools else self.drawing).with_draft_finished()
         if draft is None or name is None:
             return self
         return self.draw(drawing, PickSelection(draft.kind, name, len(drawing.pick(draft.kind, name).pieces) - 1))
+
+    def _with_ends_snapped(self, tools: Tools) -> Drawing:
+        """Snap the ends of a draft fault, unless it is too short for that."""
+        draft, target = self.drawing.draft, self.drawing.draft_end
+        if draft is None or target is None or draft.kind != FAULT:
+            return self.drawing
+        steps = np.diff(draft.points, axis=0) / tools.viewport.pixel
+        if np.hypot(*steps.T).sum() < 3 * END_REACH:
+            return self.drawing
+        first, last = (tools.snap_end(draft.points[which], self.drawing, None) for which in (0, -1))
+        return self.drawing.with_line(target, [first, *draft.points[1:-1], last])
 
     def cancel(self) -> "EditorState":
         """Drop the draft line."""

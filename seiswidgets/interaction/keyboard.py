@@ -23,7 +23,7 @@ MODE_KEYS = {"l": LOOK, "f": FAULT, "h": HORIZON, "b": BLOCK}
 def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     """Handle a key."""
     if event.name == "Escape":
-        return _escape(state)
+        return _escape(state, tools)
     if "alt" in event.modifiers:
         return None
     if event.name in ARROWS:
@@ -33,17 +33,17 @@ def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | Non
     if event.name in ACTIONS:
         return ACTIONS[event.name](state, event, tools)
     mode = MODE_KEYS.get(event.name.lower())
-    return None if mode is None else state.enter(mode)
+    return None if mode is None else state.enter(mode, tools)
 
 
-def _escape(state: EditorState) -> EditorState | None:
+def _escape(state: EditorState, tools: Tools) -> EditorState | None:
     if state.drag:
         return abandon_drag(state)
     if state.drawing.draft:
         return state.cancel()
     if state.selection:
         return state.change(selection=None)
-    return state.enter(LOOK) if state.mode != LOOK else None
+    return state.enter(LOOK, tools) if state.mode != LOOK else None
 
 
 def _arrow(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
@@ -84,7 +84,7 @@ def _enter(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
         chosen = state.selection and replace(state.selection, piece=None, vertex=None)
         return state.change(cursor=_cursor(state, tools), selection=chosen)
     if draft and state.cursor in (None, draft.points[-1]):
-        return state.finish()
+        return state.finish(tools)
     return _put(state, event, tools)
 
 

@@ -77,14 +77,18 @@ def double_click(state: EditorState, event: DoubleClick, tools: Tools) -> Editor
         return None
     if state.mode == LOOK:
         return None if _piece_under(state, event) is None else state
-    return state.hold(tools.inside(event.point)) if state.mode == BLOCK else state.finish()
+    return state.hold(tools.inside(event.point)) if state.mode == BLOCK else state.finish(tools)
 
 
 def _dragged(drag: Drag, event: Move | Release, tools: Tools) -> Drawing:
     free = "shift" in event.modifiers
     if drag.fault is not None and not free:
         return slide_along_fault(drag.base, tools.viewport.section, drag.target, drag.fault, event.point)
-    return drag.base.with_vertex_moved(drag.target, tools.place_vertex(event.point, drag.target.kind, free=free))
+    target, point = drag.target, tools.place_vertex(event.point, drag.target.kind, free=free)
+    is_end = target.vertex in (0, len(drag.base.line(target)) - 1)
+    if target.kind == FAULT and target.name is not None and is_end and not free:
+        point = tools.snap_end(point, drag.base, target.name)
+    return drag.base.with_vertex_moved(target, point)
 
 
 def _toggle_held(state: EditorState, event: Press, tools: Tools) -> EditorState:

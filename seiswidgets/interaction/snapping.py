@@ -1,11 +1,15 @@
-"""Snapping of horizons to the nearest peak, trough or zero crossing, and following it between two clicks.
+"""Snapping of the ends of faults to what they nearly reach, and of horizons to events, also between two clicks.
 
+Events are peaks, troughs and zero crossings.
 Between two traces amplitudes are interpolated linearly, so that a point keeps its x and moves along z only. Extrema
 are refined by a parabola through three samples, zero crossings by a straight line through two.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
 import shapely
+from numpy.typing import ArrayLike
 from scipy.ndimage import map_coordinates
 
 from seiswidgets.errors import SettingError
@@ -16,6 +20,7 @@ EVENTS = ("peak", "trough", "zero-up", "zero-down")
 PROMINENCE = 0.05  # least prominence of an extremum, as a share of the range of amplitudes in the window
 ROUTE_WINDOW = 2.0  # samples within which the exact event is sought about the route
 TOLERANCE = 0.25  # samples that a simplified line may be off the event
+END_REACH = 10.0  # css pixels within which the end of a fault snaps
 NO_DATA = 25.0  # cost of a sample without data, where others cost 0.02 to 1
 
 
@@ -92,6 +97,25 @@ def follow_event(
     inner = np.column_stack([columns, rows])[:: 1 if cells[0, 0] < cells[1, 0] else -1]
     kept = _simplified(np.vstack([cells[:1], inner, cells[1:]]), tolerance) * steps + (section.x0, section.z0)
     return np.vstack([ends[:1], kept[1:-1], ends[1:]])
+
+
+def snap_to_lines(point: Point, lines: Iterable[ArrayLike], pixel: ArrayLike) -> Point:
+    """The nearest point of some lines, if one lies within ten css pixels; else the point itself.
+
+    Parameters
+    ----------
+    point : (x, z)
+    lines : iterable of arrays, each of shape (n, 2), n >= 2
+    pixel : array, shape (2,)
+        Width and height of a css pixel, in the section's units.
+    """
+    tip = shapely.Point(np.divide(point, pixel))
+    scaled = [shapely.LineString(np.divide(line, pixel)) for line in lines]
+    nearest = min(scaled, key=tip.distance, default=None)
+    if nearest is None or tip.distance(nearest) > END_REACH:
+        return point
+    x, z = np.multiply(nearest.interpolate(nearest.project(tip)).coords[0], pixel).tolist()
+    return x, z
 
 
 def _check(event: str, window: float) -> None:

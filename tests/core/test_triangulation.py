@@ -6,7 +6,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seiswidgets.core.triangulation import LEAST_ANGLE, edges_along, triangulate, triangulate_to
+from seiswidgets.core import meshers
+from seiswidgets.core.triangulation import edges_along, triangulate, triangulate_to
 from seiswidgets.errors import SettingError
 from tests.core.meshes import BLIND, BOX, PLANAR, arc
 
@@ -30,6 +31,12 @@ LINES = {
     "across the border": [STEEP, LEVEL],
     "branch": [LEVEL, shapely.LineString([(500, 325), (700, 600)])],
 }
+
+
+@pytest.fixture(params=meshers.MESHERS, autouse=True)
+def mesher(request, monkeypatch):
+    monkeypatch.setattr(meshers, "MESHERS", {request.param: meshers.MESHERS[request.param]})
+    return request.param
 
 
 def angles(mesh):
@@ -92,14 +99,14 @@ def test_a_line_off_the_mesh_has_no_edges():
 
 
 @pytest.mark.parametrize("name", ["box", "shifted", "hole", "two parts"])
-def test_no_angle_is_small(name):
+def test_no_angle_is_small(name, mesher):
     mesh = triangulate(OUTLINES[name], [], np.sqrt(OUTLINES[name].area) / 15)
-    assert angles(mesh).min() > LEAST_ANGLE - 0.1
+    assert angles(mesh).min() > meshers.LEAST_ANGLE[mesher] - 0.1
 
 
 @pytest.mark.parametrize("name", ["planar", "blind", "curved", "crossing", "branch"])  # no angle below 60 degrees
-def test_no_angle_is_small_near_lines(name):
-    assert angles(triangulate(BOX, LINES[name], 40.0)).min() > LEAST_ANGLE - 0.1
+def test_no_angle_is_small_near_lines(name, mesher):
+    assert angles(triangulate(BOX, LINES[name], 40.0)).min() > meshers.LEAST_ANGLE[mesher] - 0.1
 
 
 @pytest.mark.parametrize("spacing", [20.0, 50.0, 100.0])

@@ -9,7 +9,7 @@ from shapely import LineString
 
 import seiswidgets as sw
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import MERGED, NEAR, fault_lines, insert_points, merge_close_points
+from seiswidgets.geology.fault_lines import MERGED, NEAR, fault_lines, insert_points, merge_close_points, resample_fine
 
 SECTION = sw.Section(np.ones((101, 201), np.float32), dx=10, dz=10)
 SPACING = 100.0
@@ -74,7 +74,7 @@ def test_fine_digitising_is_resampled(step, jitter):
     noise = np.random.default_rng(3).normal(size=len(z)) * jitter
     noise[[0, -1]] = 0
     bend = np.where(z < 500, 0, 0.5 * (z - 500))
-    found = lines(F=np.column_stack([800 + bend + noise, z]))["F"]
+    found = resample_fine(np.column_stack([800 + bend + noise, z]), GROUND)
     assert np.hypot(*np.diff(found, axis=0).T).min() > min(step, 0.25 * SPACING)
     assert np.abs(found[:, 0] - 800 - np.interp(found[:, 1], z, bend)).max() < 2 * jitter + 4
 

@@ -115,6 +115,30 @@ def test_enter_finishes(editor):
     assert pieces(editor) == (tuple(FAULT),)
 
 
+def test_the_ends_of_a_fault_snap_to_the_border_and_to_other_faults(drawn):
+    drawn.enter("fault")
+    draw(drawn, [(300.0, 7.0), (390.0, 9.0), (457.0, 300.0)])  # a pixel is a metre
+    (first, middle, last) = pieces(drawn, "F2")[0]
+    assert first == (300.0, 0.0)
+    assert middle == (390.0, 9.0)
+    np.testing.assert_allclose(
+        last, np.array([450, 300]) + 7 * 16 / 17 * np.array([16, -4]) / np.hypot(16, 4), atol=0.2
+    )
+    assert sw.Fault(FAULT).points[1].tolist() in [list(point) for point in pieces(drawn, "F1")[0]]
+    drawn.undo()
+    assert pieces(drawn, "F2")[0] == ((300.0, 7.0), (390.0, 9.0), (457.0, 300.0))
+
+
+def test_the_end_of_a_fault_snaps_while_it_is_dragged_unless_shift_is_held(drawn):
+    drawn.enter("fault")
+    drag(drawn, FAULT[0], (420.0, 60.0), (420.0, 6.0))
+    assert pieces(drawn)[0][0] == (420.0, 0.0)
+    drag(drawn, (420.0, 0.0), (420.0, 60.0), (420.0, 6.0), modifiers=SHIFT)
+    assert pieces(drawn)[0][0] == (420.0, 6.0)
+    drag(drawn, FAULT[1], (420.0, 20.0), (440.0, 6.0))
+    assert pieces(drawn)[0][1] == (440.0, 6.0)
+
+
 def test_new_picks_take_free_names(editor):
     editor.enter("fault")
     for x in (100.0, 300.0, 500.0):
