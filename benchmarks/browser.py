@@ -39,10 +39,10 @@ app = sw.RestorationApp(section, height=652)
 app
 """
 WATCH = """() => {
-  const draw = CanvasRenderingContext2D.prototype.drawImage;
+  const draw = CanvasRenderingContext2D.prototype.putImageData;
   const plots = () => [...document.querySelectorAll("canvas.seiswidgets-plot")];
   window.painted = [0, 0];
-  CanvasRenderingContext2D.prototype.drawImage = function (...given) {
+  CanvasRenderingContext2D.prototype.putImageData = function (...given) {
     const number = plots().indexOf(this.canvas);
     if (number >= 0) requestAnimationFrame(() => { window.painted[number] = performance.now(); });
     return draw.apply(this, given);

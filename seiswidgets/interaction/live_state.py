@@ -31,13 +31,15 @@ class TextureSource:
         Amplitude of the integer 1.
     shape : tuple (nz, nx)
         Of the texture: that of the section, unless this is too large.
+    rows : int
+        Number of rows in a tile.
     """
 
     def __init__(self, section: Section):
         limit = HEADROOM * clip_limit(section, 99.0)
         self.section, self.scale = section, min(_largest(section.amplitude), limit) / 32767
         self.shape = _reduced(section.shape, MOST_SAMPLES)
-        self._rows = max(1, TILE_SAMPLES // self.shape[1])
+        self.rows = max(1, TILE_SAMPLES // self.shape[1])
         self._averaged = section.amplitude if self.shape == section.shape else self._resampled(self.shape)
 
     @property
@@ -49,11 +51,11 @@ class TextureSource:
     @property
     def tiles(self) -> int:
         """Number of tiles."""
-        return -(-self.shape[0] // self._rows)
+        return -(-self.shape[0] // self.rows)
 
     def tile(self, index: int) -> bytes:
         """The integers of a band of rows."""
-        return self._integers(self._averaged[index * self._rows : (index + 1) * self._rows])
+        return self._integers(self._averaged[index * self.rows : (index + 1) * self.rows])
 
     def _resampled(self, shape: tuple[int, int]) -> np.ndarray:
         return self.section.amplitude if shape == self.section.shape else resampled(self.section.amplitude, shape[::-1])
@@ -97,9 +99,9 @@ def colours_state(colouring: Colouring, scale: float) -> State:
     return {"palette": colouring.palette.tobytes(), "factor": 127 * scale / colouring.limit}
 
 
-def deformation_state(colouring: RatioColouring, brush: tuple[float, float] | None, opacity: float) -> State:
+def deformation_state(colouring: RatioColouring, palette: np.ndarray, opacity: float) -> State:
     """The colours of area ratios."""
-    return {"palette": colouring.palette(brush).tobytes(), "span": colouring.span, "opacity": opacity}
+    return {"palette": palette.tobytes(), "span": colouring.span, "opacity": opacity}
 
 
 def _largest(amplitude: np.ndarray) -> float:

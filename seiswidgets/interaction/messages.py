@@ -103,12 +103,13 @@ def _gesture(message: PointerMessage, projection: PaneProjection) -> Gesture | N
     return None
 
 
-def axes_state(view: Viewport, left: float) -> dict[str, Any]:
+def axes_state(view: Viewport, left: float, note: str = "") -> dict[str, Any]:
     """Convert the axes of a view to what the pointer layer draws, with ``left`` css pixels left of the plot area."""
     x, z = view.ticks()
     is_true = abs(view.exaggeration - 1) < 0.005
-    note = "true proportions" if is_true else f"V.E. {view.exaggeration:.3g}×"
-    return {"x": _axis_state(x), "z": _axis_state(z), "left": left, "note": note}
+    scale = "true proportions" if is_true else f"V.E. {view.exaggeration:.3g}×"
+    corner = f"{scale} · {note}" if note else scale
+    return {"x": _axis_state(x), "z": _axis_state(z), "left": left, "note": corner}
 
 
 def _axis_state(axis: Axis) -> dict[str, Any]:

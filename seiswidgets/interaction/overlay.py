@@ -46,10 +46,13 @@ class Stroke:
     chosen: int | None = None
 
     def state(self) -> State:
-        """Convert to the JSON that the pointer layer draws; points that cannot be drawn are None."""
+        """Convert to what the pointer layer draws: points as 32-bit offsets from the first, NaN where interrupted."""
         points = np.reshape(np.asarray(self.points, float), (-1, 2))
+        drawable = np.asarray(np.isfinite(points).all(axis=1))
+        origin = points[drawable][0] if drawable.any() else np.zeros(2)
         return {
-            "points": [point if np.isfinite(point).all() else None for point in points.tolist()],
+            "origin": origin.tolist(),
+            "points": np.where(drawable[:, None], points - origin, np.nan).astype("<f4").tobytes(),
             "colour": self.colour,
             "width": self.width,
             "dots": self.dots,
@@ -57,6 +60,11 @@ class Stroke:
             "label": self.label,
             "chosen": self.chosen,
         }
+
+
+def stroke_points(state: State) -> np.ndarray:
+    """Points of a stroke's state, shape (n, 2); NaN where the line is interrupted."""
+    return np.frombuffer(state["points"], "<f4").reshape(-1, 2) + np.array(state["origin"])
 
 
 @dataclass(frozen=True)

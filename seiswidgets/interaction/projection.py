@@ -134,8 +134,10 @@ def _runs(before: np.ndarray, after: np.ndarray, section: Section) -> list[np.nd
     lengths = [np.hypot(*(np.diff(points, axis=0) * section.metres).T) for points in (before, after)]
     step_before, step_after = np.nan_to_num(lengths, nan=np.inf)
     breaks = np.flatnonzero(~(step_after <= JUMP * step_before)) + 1
-    runs = (run[np.isfinite(run).all(axis=1)] for run in np.split(after, breaks))
-    return [_simplified(run, np.array([section.dx, section.dz])) for run in runs if len(run) > 1]
+    cell = np.array([section.dx, section.dz])
+    pairs = zip(np.split(before, breaks), np.split(after, breaks), strict=True)
+    known = ((np.isfinite(run).all(axis=1), start, run) for start, run in pairs)
+    return [_simplified(start[rows], run[rows], cell) for rows, start, run in known if rows.sum() > 1]
 
 
 def _with_gaps(runs: Sequence[np.ndarray]) -> np.ndarray:
@@ -154,5 +156,14 @@ def _densified(line: np.ndarray, pixel: np.ndarray) -> np.ndarray:
     return np.column_stack([np.interp(at, indices, line[:, 0]), np.interp(at, indices, line[:, 1])])
 
 
-def _simplified(run: np.ndarray, cell: np.ndarray) -> np.ndarray:
-    return np.array(shapely.LineString(run / cell).simplify(TOLERANCE, preserve_topology=False).coords) * cell
+def _simplified(before: np.ndarray, after: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    """Points of a line that matter after mapping, or before: the browser shows it at any moment between."""
+    kept = [_significant(points / cell) for points in (before, after)]
+    return np.asarray(after[np.union1d(*kept)])
+
+
+def _significant(points: np.ndarray) -> np.ndarray:
+    """Indices of the points that a simplified line keeps."""
+    numbered = shapely.linestrings(np.column_stack([points, np.arange(len(points))]))
+    simple = shapely.simplify(numbered, TOLERANCE, preserve_topology=False)
+    return shapely.get_coordinates(simple, include_z=True)[:, 2].astype(int)

@@ -14,13 +14,12 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.colour import FADED, RatioColouring, checked_span, clip_limit
 from seiswidgets.interaction.drawing import Point
-from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.projection import PaneProjection
-from seiswidgets.interaction.viewport import Viewport
+from seiswidgets.interaction.viewport import Viewport, Window
 from seiswidgets.widgets.closing import WithParts
-from seiswidgets.widgets.ipycanvas_compat import hold_canvases
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.key_guard import KeyGuard
+from seiswidgets.widgets.section_view.live_picture import LivePicture
 from seiswidgets.widgets.section_view.pane import SectionPane
 from seiswidgets.widgets.section_view.still import still
 from seiswidgets.widgets.snapshot import Snapshot
@@ -33,6 +32,7 @@ READOUT = (
     'overflow: hidden; text-overflow: ellipsis">{}</div>'
 )
 HEADING = '<div style="font-weight: 600; padding-left: 64px">{}</div>'
+BEYOND = "rock beyond the window: 0 shows all"
 BRUSHED_ALONE = 0.6  # opacity of what is brushed while the map itself is not shown
 SHARED = ("colours", "clip", "gain", "polarity", "height")
 
@@ -86,10 +86,12 @@ class LinkedPanes(WithParts, VBox):
     ----------
     restoration : Restoration
         The restoration shown; may be set.
+    picture : LivePicture
+        What both panes draw.
     original, restored : SectionPane
         The panes. Colours, clip, gain and polarity of the first apply to both.
     zoom_linked : bool
-        True to show the same window in both panes.
+        True to show the same window in both panes; the vertical exaggeration is the same in any case.
     deformation, mesh : float
         Opacity of the area ratio's colours and of the mesh, from 0 to 1.
     span : float
@@ -106,7 +108,7 @@ class LinkedPanes(WithParts, VBox):
     """
 
     restoration = Instance(Restoration)
-    zoom_linked = Bool(False)
+    zoom_linked = Bool(True)
     deformation = Float(0.0, min=0.0, max=1.0)
     mesh = Float(0.0, min=0.0, max=1.0)
     span = Float(USUAL_SPAN)
@@ -117,11 +119,15 @@ class LinkedPanes(WithParts, VBox):
         if isinstance(restoration, Section):
             restoration = Restoration(restoration)
         section = restoration.original
-        self.original, self.restored = (SectionPane(section, height=height) for _ in range(2))
+        self.picture = picture = LivePicture(section)
+        self.original, self.restored = (
+            SectionPane(section, height=height, picture=picture, restored=restored) for restored in (False, True)
+        )
         self._snapshot: Snapshot | None = None  # until the restoration is taken
+        self._moment: Snapshot | None = None  # None at the end
         self._readers: list[Callable[[Reading | None], None]] = []
         self._links: list[object] = []
-        self.restored.projection = self.projection
+        self.restored.projection, self.restored.line_projection = self.projection, self.line_projection
         self.readout = HTML(READOUT.format(""))
         self._link_panes()
         headed = (PRESENT_DAY, self.original), (RESTORED, self.restored)
@@ -136,16 +142,25 @@ class LinkedPanes(WithParts, VBox):
             pane.observe(lambda change, other=other: self._zoom_too(other, change.new), "view")
         self.original.observe(self._share, SHARED)
         self.original.observe(self._share_limit, ("clip", "section"))
+        self.original.observe(self._colour, ("colours", "clip", "limit", "gain", "polarity", "section"))
         self._share_limit()
+        self._colour()
 
     @property
     def shown(self) -> Snapshot:
-        """The snapshot that is drawn."""
-        return self._snapshot or Snapshot.of(self.restoration)
+        """The snapshot that is shown, at its moment."""
+        return self._moment or self._snapshot or Snapshot.of(self.restoration)
 
     def projection(self) -> PaneProjection:
         """Return the map from the present-day section to the restored pane."""
         return PaneProjection(self.restored.view, self.shown.restoration)
+
+    def line_projection(self) -> PaneProjection:
+        """Return the map from the present-day section to the restored pane at the end of time.
+
+        From there the browser carries lines to any other moment.
+        """
+        return PaneProjection(self.restored.view, (self._snapshot or self.shown).restoration)
 
     def still(self) -> str:
         """Draw both panes fitted, as a PNG in base 64."""
@@ -161,32 +176,44 @@ class LinkedPanes(WithParts, VBox):
         """Call a function with the values at the pointer; None when it leaves."""
         self._readers.append(callback)
 
-    def show(self, snapshot: Snapshot) -> None:
-        """Draw a snapshot in both panes at once; if it is moving, the map follows in a second message."""
-        with UI_LOCK:
-            with hold_canvases():
-                self._draw_snapshot(snapshot)
-                if not snapshot.moving:
-                    self._grow_frame(snapshot)
-                    self._draw_ratio()
-            if snapshot.moving:
-                self._draw_ratio()
+    def show(self, snapshot: Snapshot, *, follow: bool = True) -> None:
+        """Show a restoration at its end in both panes at once; the browser draws it.
+
+        Parameters
+        ----------
+        snapshot : Snapshot
+        follow : bool
+            True if fitted views are to hold all of the rock; after an edit, the view must not jump.
+        """
+        with UI_LOCK, self.picture.one_frame():
+            self._snapshot, self._moment = snapshot, None
+            restoration = snapshot.restoration
+            self._show_section(restoration.original)
+            self.picture.frame = None
+            self.picture.take_stages(restoration.stages)
+            if not snapshot.is_preview:
+                self.restored.section = snapshot.section
+                self._frame(snapshot, follow)
+            self._show_badge(snapshot.verdict)
             self._read_again()
 
-    def _draw_snapshot(self, snapshot: Snapshot) -> None:
-        """Draw the sections and the mesh, and link the cursors."""
-        old, self._snapshot = self._snapshot, snapshot
-        if self.original.section is not snapshot.restoration.original:
+    def show_moment(self, moment: Snapshot | None) -> None:
+        """Take gestures, and read values, at a moment of the restoration, which the browser shows by itself.
+
+        None is the end.
+        """
+        with UI_LOCK:
+            self._moment = moment
+            self._read_again()
+
+    def _show_section(self, section: Section) -> None:
+        """Show another present-day section, unless it is the same."""
+        if self.original.section is not section:
             for pane in (self.original, self.restored):
                 pane.frame = None
                 pane.fit()
-            self.original.show(snapshot.restoration.original)
-        self.restored.show(snapshot.section, moving=snapshot.moving)
-        self._show_badge(snapshot.verdict)
-        if old is None or old.restoration is not snapshot.restoration:
-            self.original.carry(snapshot.restoration.maps_to_restored)
-            self.restored.carry(snapshot.restoration.maps_to_original)
-        self._draw_mesh()
+            self.picture.take_section(section)
+            self.original.section = section
 
     def _show_badge(self, verdict: Verdict | None) -> None:
         """Mark the restored pane if the result has a problem or a warning."""
@@ -197,52 +224,43 @@ class LinkedPanes(WithParts, VBox):
 
     @observe("restoration")
     def _take_restoration(self, change: Bunch) -> None:
-        snapshot = self._snapshot
-        if snapshot is None or snapshot.restoration is not self.restoration or snapshot.moving:
+        if self._snapshot is None or self._snapshot.restoration is not self.restoration:
             self.show(Snapshot.of(self.restoration))
 
     @observe("mesh")
-    def _draw_mesh(self, change: Bunch | None = None) -> None:
-        stages = self._snapshot.restoration.stages if self._snapshot else ()
-        for pane in (self.original, self.restored):
-            pane.mesh_opacity = self.mesh
-        if not (self._snapshot and stages and self.mesh):
-            self.original.mesh = self.restored.mesh = None
-            return
-        section = self._snapshot.restoration.original
-        first, last = stages[0], stages[-1]
-        self.original.mesh = section.from_rock(first.mesh.vertices), first.mesh.triangles
-        self.restored.mesh = section.from_rock(last.vertices), last.mesh.triangles
+    def _show_mesh(self, change: Bunch) -> None:
+        self.original.mesh_opacity = self.restored.mesh_opacity = self.mesh
 
     @validate("span")
     def _valid_span(self, proposal: Bunch) -> float:
         return checked_span(proposal.value)
 
     @observe("deformation", "brush", "span")
-    def _draw_ratio(self, change: Bunch | None = None) -> None:
-        snapshot = self._snapshot
+    def _colour_ratios(self, change: Bunch | None = None) -> None:
         opacity = self.deformation or (BRUSHED_ALONE if self.brush else 0.0)
-        for pane in (self.original, self.restored):
-            pane.overlay_opacity = opacity
-        if not (snapshot and snapshot.restoration.stages and opacity):
-            self.original.overlay = self.restored.overlay = None
-            return
-        colouring = RatioColouring(self.span)
         brush = (self.brush[0], self.brush[1]) if self.brush else None
-        palette = colouring.palette(brush, FADED if self.deformation else 0.0)
-        for pane, ratio_map in ((self.original, snapshot.ratio_before), (self.restored, snapshot.ratio_after)):
-            pane.overlay = Overlay(colouring.levels(ratio_map.ratio), palette, ratio_map.window)
+        self.picture.colour_ratios(RatioColouring(self.span), brush, opacity, FADED if self.deformation else 0.0)
 
-    def _grow_frame(self, snapshot: Snapshot) -> None:
-        """Make both panes fit all of the rock, before and after, at one scale."""
+    def _colour(self, change: Bunch | None = None) -> None:
+        self.picture.colour(self.original.colouring)
+
+    def _frame(self, snapshot: Snapshot, follow: bool) -> None:
+        """Let both panes fit all of the rock, before and after, at one scale; say so if some lies beyond the window."""
         windows = [Viewport(section).whole for section in (snapshot.restoration.original, snapshot.section)]
         low, high = np.min(windows, axis=0), np.max(windows, axis=0)
-        needed = low[0], high[1], low[2], high[3]
-        present = self.original.frame or windows[0]
-        slack = SLACK * np.array([present[1] - present[0], present[3] - present[2]]).repeat(2)
-        reaches_beyond = (np.subtract(needed, present) * (-1, 1, -1, 1) > slack).any()
-        if reaches_beyond or self.restored.frame is None:
-            self.original.frame = self.restored.frame = needed if reaches_beyond else present
+        frame = low[0], high[1], low[2], high[3]
+        if not _reaches_beyond(frame, windows[0]):
+            frame = windows[0]
+        follow = follow or self.restored.frame is None
+        for pane in (self.original, self.restored):
+            pane.reframe(frame, follow=follow)
+        self._note_rock_beyond()
+
+    def _note_rock_beyond(self) -> None:
+        """Say so if the panes show all of the present-day section, but not all of the restored one."""
+        view = self.original.view
+        shows_section = not _reaches_beyond(view.covered, view.window)
+        self.restored.note = BEYOND if shows_section and _reaches_beyond(view.whole, view.window) else ""
 
     def _share(self, change: Bunch) -> None:
         setattr(self.restored, change.name, change.new)
@@ -255,8 +273,14 @@ class LinkedPanes(WithParts, VBox):
         self._zoom_too(self.restored, self.original.view)
 
     def _zoom_too(self, pane: SectionPane, view: Viewport) -> None:
-        if self.zoom_linked and pane.view.window != view.window:
-            pane.view = replace(pane.view, window=view.window)
+        """Give a pane the window of the other one, or if zooms are not linked, its exaggeration."""
+        following = pane.view.resized(view.width, view.height, view.pixel_ratio)
+        if self.zoom_linked:
+            following = replace(following, window=view.window)
+        elif not np.isclose(following.exaggeration, view.exaggeration, rtol=1e-9):
+            following = following.exaggerated(view.exaggeration)
+        pane.view = following
+        self._note_rock_beyond()
 
     def _read_again(self) -> None:
         """Let the readout follow a picture that changes under a pointer at rest."""
@@ -282,6 +306,12 @@ class LinkedPanes(WithParts, VBox):
             (ratio,) = restoration.area_ratio_at(before)
         amplitude = _amplitude(restoration.original, before)
         return Reading(tuple(before[0].tolist()), tuple(after[0].tolist()), amplitude, float(ratio))
+
+
+def _reaches_beyond(window: Window, other: Window) -> bool:
+    """Return whether a window reaches notably beyond another one."""
+    slack = SLACK * np.array([other[1] - other[0], other[3] - other[2]]).repeat(2)
+    return bool((np.subtract(window, other) * (-1, 1, -1, 1) > slack).any())
 
 
 def _amplitude(section: Section, point: np.ndarray) -> float:

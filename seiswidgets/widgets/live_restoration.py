@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from ipywidgets import jsdlink
 from traitlets import Bunch
 
 from seiswidgets.errors import SeiswidgetsError
@@ -17,7 +18,6 @@ from seiswidgets.widgets.restorer import REST, Restorer
 from seiswidgets.widgets.snapshot import Snapshot
 from seiswidgets.widgets.status_bar import StatusBar
 from seiswidgets.widgets.timeline import Timeline
-from seiswidgets.widgets.timeline_player import TimelinePlayer
 from seiswidgets.widgets.verdict import Verdict
 
 DRAW_FAULT = (
@@ -55,7 +55,7 @@ class LiveRestoration:
         self._timeline, self._histogram = timeline, histogram
         self._requested = False  # whether the user pressed Restore: only then is an error shown as an alert
         self._restorer = Restorer(self._draw, status.show_progress, self._fail)
-        self._player = TimelinePlayer(panes, self._show_moment)
+        self._link = jsdlink((timeline.slider, "value"), (panes.picture, "frame"))
         workspace.observe(self._take_document, "document")
         workspace.observe(self._take_settled, "settled")
         workspace.observe(self._take_restoration, "restoration")
@@ -91,11 +91,10 @@ class LiveRestoration:
     def stop(self) -> None:
         """Cancel everything in progress, and show nothing more."""
         self._restorer.cancel()
-        self._player.cancel()
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is in progress; False after the timeout in seconds."""
-        return self._restorer.wait(timeout) and self._player.wait(timeout)
+        return self._restorer.wait(timeout)
 
     def _take_document(self, change: Bunch) -> None:
         old, new = change.old, change.new
@@ -114,7 +113,12 @@ class LiveRestoration:
             self.update()
 
     def _take_time(self, change: Bunch) -> None:
-        self._player.show(self._workspace.restoration, change.new)
+        """Follow the time, which the browser shows by itself."""
+        restoration = self._workspace.restoration
+        if change.new <= len(restoration.stages):
+            is_end = change.new == len(restoration.stages)
+            self._panes.show_moment(None if is_end else Snapshot(restoration.at(change.new)))
+            self._histogram.show(self._panes.shown.ratio if restoration.stages else [])
 
     def _take_restoration(self, change: Bunch) -> None:
         """Show the workspace's restoration, unless it is drawn already."""
@@ -146,20 +150,21 @@ class LiveRestoration:
     def _draw(self, snapshot: Snapshot, restoration: Restoration | None) -> None:
         """Draw a snapshot; a preview has no restoration on the full mesh."""
         verdict = snapshot.verdict
-        self._player.cancel()
-        self._panes.show(snapshot)
+        with self._panes.picture.one_frame():
+            self._panes.show(snapshot, follow=self._is_unedited)
+            self._picker.redraw()
         self._picker.show_findings(verdict.findings if verdict else ())
-        self._picker.redraw()
         self._show_verdict(verdict, is_preview=restoration is None)
         self._set_outdated(False)
-        self._histogram.show(snapshot.ratio_before.ratio.ravel() if snapshot.restoration.stages else [])
+        self._histogram.show(snapshot.ratio if snapshot.restoration.stages else [])
         if restoration is not None:
             self._workspace.restoration = restoration
 
-    def _show_moment(self, snapshot: Snapshot) -> None:
-        """Let lines and histogram follow a moment on the timeline."""
-        self._picker.redraw()
-        self._histogram.show(snapshot.ratio_before.ratio.ravel())
+    @property
+    def _is_unedited(self) -> bool:
+        """True before the first edit and after an undo: then the view may follow the rock."""
+        history = self._workspace.history
+        return history.next_undo is None or history.next_redo is not None
 
     def _show_verdict(self, verdict: Verdict | None, is_preview: bool) -> None:
         if verdict is not None:

@@ -196,7 +196,7 @@ class Picker(WithParts, VBox):
         self.refresh()
 
     def _draw(self, pane: SectionPane) -> None:
-        state, projection = self.editor.state, pane.projection()
+        state, projection = self.editor.state, pane.line_projection()
         shown = state, projection.view, projection.restoration
         if self._drawn.get(pane) == shown:
             return

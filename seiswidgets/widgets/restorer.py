@@ -78,7 +78,7 @@ class Restorer:
         try:
             coarse = job.coarse
             restoration = coarse.restored(self._preview or self._full, lambda *_: time.monotonic() < end)
-            snapshot = Snapshot.of(restoration, moving=True)
+            snapshot = Snapshot.of(restoration)
         except Cancelled:
             return
         except SeiswidgetsError as error:

@@ -1,4 +1,4 @@
-"""Everything that two linked panes draw of a restoration, computed before anything is drawn."""
+"""The state of a restoration that two linked panes show, computed before anything is drawn."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,74 +7,53 @@ import numpy as np
 
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.viewport import Viewport, Window
+from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.verdict import Verdict
 
-MOST_SAMPLES_MOVING = 50_000  # of a moving section
-RATIO_NODES, RATIO_NODES_MOVING = 60_000, 5_000  # nodes at which the area ratio is computed
-
-
-@dataclass(frozen=True, eq=False)
-class RatioMap:
-    """Area ratios at the nodes of a regular lattice, NaN where there is no rock.
-
-    Attributes
-    ----------
-    ratio : array, shape (h, w)
-    window : tuple (x_min, x_max, z_min, z_max)
-        Extent to the outer edges of the lattice's cells, in the section's units.
-    """
-
-    ratio: np.ndarray
-    window: Window
+RATIO_NODES, RATIO_NODES_PREVIEW = 60_000, 5_000  # nodes at which the area ratio is computed
 
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """One picture of a restoration.
+    """A restoration as it is shown.
 
     Attributes
     ----------
     restoration : Restoration
-    section : Section
-        The restored section.
-    moving : bool
-        True for a coarse picture, which others follow in quick succession.
     verdict : Verdict or None
         None for a preview, which is not checked, and if nothing has been restored.
     """
 
     restoration: Restoration
-    section: Section
-    moving: bool = False
     verdict: Verdict | None = None
 
     @classmethod
-    def of(cls, restoration: Restoration, *, moving: bool = False) -> "Snapshot":
-        """Compute the picture of a restoration: cubic, or if moving, linear and with fewer samples."""
-        section = restoration.picture(order=1, cells=MOST_SAMPLES_MOVING) if moving else restoration.section
-        checked = restoration.stages and not restoration.quick
-        return cls(restoration, section, moving, Verdict.of(restoration) if checked else None)
+    def of(cls, restoration: Restoration) -> "Snapshot":
+        """Check a restoration, unless it is a preview, and compute its section."""
+        if restoration.quick or not restoration.stages:
+            return cls(restoration)
+        snapshot = cls(restoration, Verdict.of(restoration))
+        _ = snapshot.section  # here, and not when it is drawn
+        return snapshot
+
+    @property
+    def is_preview(self) -> bool:
+        """True for a restoration on a coarse mesh, which others follow in quick succession."""
+        return self.restoration.quick
+
+    @property
+    def section(self) -> Section:
+        """The restored section."""
+        return self.restoration.section
 
     @cached_property
-    def ratio_before(self) -> RatioMap:
-        """Area ratios of all stages together on the present-day section, where each node stands for the same area."""
-        points, shape, window = self._nodes(self.restoration.original)
-        return RatioMap(self.restoration.area_ratio_at(points).reshape(shape), window)
-
-    @cached_property
-    def ratio_after(self) -> RatioMap:
-        """Area ratios of all stages together on the restored section."""
-        points, shape, window = self._nodes(self.section)
-        return RatioMap(self.restoration.area_ratio_at(self.restoration.to_original(points)).reshape(shape), window)
-
-    def _nodes(self, section: Section) -> tuple[np.ndarray, tuple[int, int], Window]:
-        """Middles of the cells of a lattice that fills a section, with its shape and its window."""
-        window = Viewport(section).whole
-        spans = np.array([window[1] - window[0], window[3] - window[2]])
+    def ratio(self) -> np.ndarray:
+        """Area ratios of all stages together, at the nodes of a lattice over the present-day section; NaN outside."""
+        section = self.restoration.original
+        x_min, x_max, z_min, z_max = Viewport(section).whole
         cells = np.array(section.shape[::-1])
-        share = min(1.0, np.sqrt((RATIO_NODES_MOVING if self.moving else RATIO_NODES) / cells.prod()))
-        nx, nz = np.maximum(2, np.rint(cells * share)).astype(int).tolist()
-        x = window[0] + (np.arange(nx) + 0.5) * spans[0] / nx
-        z = window[2] + (np.arange(nz) + 0.5) * spans[1] / nz
-        return np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2), (nz, nx), window
+        nodes = RATIO_NODES_PREVIEW if self.is_preview else RATIO_NODES
+        nx, nz = np.maximum(2, np.rint(cells * min(1.0, np.sqrt(nodes / cells.prod())))).astype(int).tolist()
+        x = x_min + (np.arange(nx) + 0.5) * (x_max - x_min) / nx
+        z = z_min + (np.arange(nz) + 0.5) * (z_max - z_min) / nz
+        return self.restoration.area_ratio_at(np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2))

@@ -10,9 +10,9 @@ from traitlets import Bunch, Float, List, Unicode, observe, validate
 from seiswidgets.errors import SettingError
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.key_guard import KeyGuard
+from seiswidgets.widgets.section_view.live_picture import FRAMES
 
-FRAMES = 20  # per step
-INTERVAL = 100  # ms between two frames
+INTERVAL = 33  # ms between two frames
 
 
 class Timeline(WithParts, HBox):

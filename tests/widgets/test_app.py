@@ -7,6 +7,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import PickError
+from seiswidgets.interaction.overlay import stroke_points
 from seiswidgets.widgets import restorer
 from seiswidgets.widgets.app import RestorationApp
 from tests.widgets.hands import appear, drag_to, draw, press, release, tell
@@ -48,9 +49,9 @@ def drawn_frames(app, monkeypatch):
     """Snapshots drawn from now on."""
     frames, show = [], app.panes.show
 
-    def noting(frame):
+    def noting(frame, **choices):
         frames.append(frame)
-        show(frame)
+        show(frame, **choices)
 
     monkeypatch.setattr(app.panes, "show", noting)
     return frames
@@ -96,7 +97,7 @@ def test_a_line_drawn_in_the_restored_pane_lies_where_the_restoration_says(app, 
     for point in there:
         away = np.abs((np.concatenate(new.pieces) - point) / pixel).max(axis=1)
         assert away.min() < 1
-    (line,) = (s["points"] for s in app.panes.original.layer.strokes if s["label"] == new.name)
+    (line,) = (stroke_points(s) for s in app.panes.original.layer.strokes if s["label"] == new.name)
     assert len(line) == len(np.concatenate(new.pieces))
 
 
@@ -146,13 +147,13 @@ def test_dragging_restores_as_it_moves_and_in_full_at_rest(app, case, monkeypatc
     press(pane, vertex)
     for step in (20.0, 40.0, 60.0):
         drag_to(pane, vertex + (0, step))
-        assert frames[-1].moving
+        assert frames[-1].is_preview
         assert app.restoration is whole
     assert len(frames) == 3
     assert len(frames[-1].restoration.stages[1].vertices) < 0.5 * len(whole.stages[1].vertices)
     release(pane, vertex + (0, 60.0))
     assert app.wait(LONG)
-    assert not frames[-1].moving
+    assert not frames[-1].is_preview
     assert app.restoration is frames[-1].restoration
 
 
@@ -160,9 +161,9 @@ def test_twenty_quick_moves_of_a_slider_draw_only_the_newest(app, monkeypatch):
     newest, drawn = [], []
     show = app.panes.show
 
-    def noting(frame):
-        drawn.append((frame.moving, app.weights.stitch, newest[-1]))
-        show(frame)
+    def noting(frame, **choices):
+        drawn.append((frame.is_preview, app.weights.stitch, newest[-1]))
+        show(frame, **choices)
 
     monkeypatch.setattr(app.panes, "show", noting)
     (slider,) = (one for one in _sliders(app.sliders) if "stitch" in one.description)
@@ -171,8 +172,8 @@ def test_twenty_quick_moves_of_a_slider_draw_only_the_newest(app, monkeypatch):
         slider.value = value
     assert app.wait(LONG)
     assert all(asked == pytest.approx(known) for _, asked, known in drawn)
-    assert [moving for moving, *_ in drawn][-1] is False
-    assert sum(not moving for moving, *_ in drawn) == 1
+    assert [preview for preview, *_ in drawn][-1] is False
+    assert sum(not preview for preview, *_ in drawn) == 1
 
 
 def _sliders(widget):
@@ -250,15 +251,12 @@ def test_what_should_not_happen_is_said_too(app, monkeypatch, caplog):
 def test_the_timeline_shows_every_moment(app, case):
     for time in (0.0, 0.4, 1.0, 1.7):
         app.timeline.time = time
-        assert app.panes.shown.moving
-        assert app.wait(LONG)
-        assert not app.panes.shown.moving
         shown = app.panes.shown.restoration
         assert len(shown.stages) == int(np.ceil(time))
         points = [(500.0, 500.0), (3000.0, 1500.0)]
         np.testing.assert_allclose(shown.to_restored(points), app.restoration.at(time).to_restored(points))
         ratio = app.restoration.at(time).area_ratio_at([points[0]])[0]
-        assert f"median {np.nanmedian(app.panes.shown.ratio_before.ratio):.3f}" in app.histogram.summary
+        assert f"median {np.nanmedian(app.panes.shown.ratio):.3f}" in app.histogram.summary
         assert time or ratio == 1
     app.timeline.time = 2.0
     assert app.panes.shown.restoration is app.restoration

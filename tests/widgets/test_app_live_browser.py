@@ -19,9 +19,9 @@ def note(task, *arguments):
     result = restored(task, *arguments)
     asked[id(result)] = result, task.plan.weights.mean_value
     return result
-def show_noted(frame):
+def show_noted(frame, **choices):
     shown.append(asked[id(frame.restoration)][1])
-    show(frame)
+    show(frame, **choices)
 RestorationJob.restored, app.panes.show = note, show_noted
 """
 NAME = "<img src=x onerror=alert(1)>"
@@ -160,7 +160,7 @@ def is_newest(screen, handle):
     """The last picture belongs to the slider's position, and no picture followed a newer one."""
     at = float(handle.get_attribute("aria-valuenow"))
     screen.nears("np.log10(app.weights.mean_value)", at, 0.051)  # the slider says it to a tenth
-    screen.until("app.wait(30) and shown[-1] == app.weights.mean_value and not app.panes.shown.moving")
+    screen.until("app.wait(30) and shown[-1] == app.weights.mean_value and not app.panes.shown.is_preview")
     shown = screen.ask("shown")
     assert shown == sorted(shown)
     drawn = screen.pictures()

@@ -1,11 +1,15 @@
 import base64
+import json
+from dataclasses import replace
 from io import BytesIO
 
 import numpy as np
 import pytest
+from comm import DummyComm
 from PIL import Image
 
 import seiswidgets as sw
+from seiswidgets.geology.plan import RestorationJob
 from seiswidgets.interaction.overlay import Stroke
 from seiswidgets.widgets import linked_panes
 from seiswidgets.widgets.linked_panes import LinkedPanes
@@ -48,7 +52,7 @@ def test_both_panes_fit_the_same_window_which_holds_all_rock(panes, restored):
 def test_the_readout_follows_what_changes_under_a_pointer_at_rest(panes, restored):
     point = (1500.0, 900.0)
     hover(panes.original, point)
-    panes.show(Snapshot.of(restored.at(1.0)))
+    panes.show(Snapshot.of(restored.at(1.0)), follow=False)
     (x, z), *_ = restored.at(1.0).to_restored([point]).tolist()
     assert f"restored: x {x:.6g} m, depth {z:.6g} m" in panes.readout.value
     before = panes.readout.value
@@ -63,17 +67,17 @@ def test_a_section_alone_is_its_own_restoration(case):
     appear(panes.original, panes.restored)
     assert panes.restoration.stages == ()
     assert panes.restored.section is case.section
-    panes.deformation = panes.mesh = 0.5
-    assert panes.original.overlay is None
-    assert panes.original.mesh is None
+    assert panes.picture.stages == []
 
 
-def test_the_layers_carry_points_as_the_restoration_does(panes, restored):
-    assert len(panes.original.layer.chain) == len(panes.restored.layer.chain) == 2
-    first = np.frombuffer(panes.original.layer.chain[0]["source"]).reshape(-1, 2)
-    np.testing.assert_allclose(first, restored.original.from_rock(restored.stages[0].mesh.vertices))
-    last = np.frombuffer(panes.restored.layer.chain[0]["source"]).reshape(-1, 2)
-    np.testing.assert_allclose(last, restored.original.from_rock(restored.stages[-1].vertices))
+def test_the_picture_holds_the_meshes_in_samples_and_only_new_ones_are_encoded_again(panes, restored):
+    section = restored.original
+    states = panes.picture.stages
+    after = np.frombuffer(states[-1]["after"], "<f4").reshape(-1, 2)
+    points = after * (section.dx, section.dz) + (section.x0, section.z0)
+    np.testing.assert_allclose(points, section.from_rock(restored.stages[-1].vertices), atol=1e-3)
+    panes.show(Snapshot(replace(restored, stages=restored.stages[:1])))
+    assert [state is states[0] for state in panes.picture.stages] == [True]
 
 
 def test_what_is_under_the_pointer_is_read_out_in_units(panes, restored, case):
@@ -104,16 +108,34 @@ def test_beyond_the_rock_there_is_nothing_to_read(panes):
     assert np.isnan(seen[-1].ratio)
 
 
-def test_zooms_are_linked_if_that_is_switched_on(panes):
+def test_panes_share_their_window_or_if_that_is_switched_off_their_exaggeration(panes):
     panes.original.view = panes.original.view.zoomed(2)
-    assert panes.restored.view.is_fitted
-    panes.zoom_linked = True
     assert panes.restored.view.window == panes.original.view.window
     panes.restored.view = panes.restored.view.zoomed(3, (100, 100))
     assert panes.original.view.window == panes.restored.view.window
+    tell(panes.original, "size", width=500, height=400, ratio=1)  # the other one's message is still to come
+    assert panes.restored.exaggeration == pytest.approx(panes.original.exaggeration)
     panes.zoom_linked = False
     panes.original.fit()
     assert not panes.restored.view.is_fitted
+    for pane in (panes.original, panes.restored):
+        pane.exaggeration *= 1.5
+        assert panes.restored.exaggeration == pytest.approx(panes.original.exaggeration)
+
+
+def test_the_view_follows_the_rock_only_when_it_is_told_to(panes, restored):
+    today = sw.Restoration(restored.original)
+    panes.show(Snapshot.of(today))
+    whole = panes.original.view.window
+    assert whole == panes.original.view.covered
+    panes.show(Snapshot.of(restored), follow=False)  # after an edit
+    assert panes.original.view.window == panes.restored.view.window == whole
+    assert "0 shows all" in panes.restored.layer.axes["note"]
+    panes.restored.fit()
+    assert panes.original.view.window == panes.original.frame != whole
+    assert "0 shows all" not in panes.restored.layer.axes["note"]
+    panes.show(Snapshot.of(today))  # after an undo
+    assert panes.original.view.window == panes.restored.view.window == whole
 
 
 def test_colours_of_the_first_pane_hold_for_both(panes):
@@ -124,51 +146,57 @@ def test_colours_of_the_first_pane_hold_for_both(panes):
     assert panes.restored.limit < before
 
 
-def test_mesh_and_deformation_are_shown_in_both_panes(panes, restored):
+def test_mesh_deformation_and_brush_reach_the_picture(panes):
     panes.mesh = 0.5
     assert panes.original.mesh_opacity == panes.restored.mesh_opacity == 0.5
-    np.testing.assert_array_equal(panes.restored.mesh[1], restored.stages[-1].mesh.triangles)
     panes.deformation = 0.7
-    ratio = panes.shown.ratio_before.ratio
-    levels = panes.original.overlay.levels
-    assert levels.shape == ratio.shape
-    order = np.argsort(ratio[np.isfinite(ratio)])
-    assert (np.diff(levels[np.isfinite(ratio)][order].astype(int)) >= 0).all()
-    full = panes.original.overlay.palette
+    full = palette_of(panes)
+    assert panes.picture.deformation["opacity"] == 0.7
+    assert panes.picture.deformation["span"] == panes.span
     panes.brush = [1.0, 1.05]
-    brushed = panes.original.overlay.palette
+    brushed = palette_of(panes)
     lit = brushed[:, 3] == 255
     assert 0 < lit.sum() < 255
     assert (brushed[~lit, 3] <= full[~lit, 3]).all()
-    np.testing.assert_array_equal(panes.restored.overlay.palette, brushed)
-    panes.deformation = panes.mesh = 0.0
-    alone = panes.original.overlay.palette
-    assert panes.original.overlay_opacity > 0
+    panes.deformation = 0.0
+    alone = palette_of(panes)
+    assert panes.picture.deformation["opacity"] > 0
     assert (alone[lit] == brushed[lit]).all()
     assert not alone[~lit, 3].any()
     panes.brush = []
-    assert panes.original.overlay is None
-    assert panes.restored.mesh is None
+    assert panes.picture.deformation["opacity"] == 0
 
 
-def test_the_ratio_is_taken_where_it_is_drawn(restored):
-    frame = Snapshot.of(restored)
-    for drawn, back in ((frame.ratio_before, lambda at: at), (frame.ratio_after, restored.to_original)):
-        nz, nx = drawn.ratio.shape
-        x_min, x_max, z_min, z_max = drawn.window
-        row, column = nz // 3, nx // 4
-        at = x_min + (column + 0.5) * (x_max - x_min) / nx, z_min + (row + 0.5) * (z_max - z_min) / nz
-        assert drawn.ratio[row, column] == pytest.approx(restored.area_ratio_at(back([at]))[0])
+def palette_of(panes):
+    return np.frombuffer(panes.picture.deformation["palette"], np.uint8).reshape(256, 4)
 
 
-def test_a_frame_while_something_moves_is_small_and_does_not_move_the_window(panes, restored):
-    before = panes.restored.view
-    panes.show(Snapshot.of(restored.at(0.5), moving=True))
-    assert np.prod(panes.restored.section.shape) <= 160_000
-    assert panes.restored.view.window == before.window
-    assert len(panes.original.layer.chain) == 1
-    panes.restoration = restored.at(1)
-    assert panes.restored.section is restored.at(1).section or panes.restoration.stages == restored.stages[:1]
+def test_a_preview_sends_little_and_moves_no_window(restored, monkeypatch):
+    panes = LinkedPanes(restored)
+    appear(panes.original, panes.restored)
+    panes.original.view = panes.original.view.zoomed(1.5)
+    before, sizes = panes.restored.view, []
+    preview = RestorationJob(restored.original, sw.synthetic.faulted_fold().interpretation, sw.Plan()).coarse.restored()
+
+    def publish(self, kind, data=None, metadata=None, buffers=None, **keys):
+        sizes.append(len(json.dumps(data)) + sum(memoryview(buffer).nbytes for buffer in buffers or ()))
+
+    monkeypatch.setattr(DummyComm, "publish_msg", publish)
+    panes.show(Snapshot.of(preview))
+    assert 1000 < sum(sizes) <= 30_000
+    assert panes.restored.view == before
+    assert panes.shown.restoration is preview
+
+
+def test_what_is_seen_at_once_is_held_until_all_of_it_is_sent(panes, restored):
+    changes = []
+    panes.picture.observe(lambda change: changes.append((change.name, change.new)), ["changing", "stages"])
+    panes.show(Snapshot(restored.at(0.5)))
+    assert [name for name, _ in changes] == ["changing", "stages", "changing"]
+    assert (changes[0][1], changes[-1][1]) == (True, False)
+    with pytest.raises(ZeroDivisionError), panes.picture.one_frame():
+        1 / 0  # noqa: B018
+    assert not panes.picture.changing
 
 
 def test_a_still_shows_both_panes_with_their_lines():

@@ -55,7 +55,7 @@ def drawn(restoration, window, *, is_restored=True, time=None, colouring=None, s
         "window": window,
         "isRestored": is_restored,
         "colours": colours_state(colouring, source.scale),
-        "deformation": deformation_state(RatioColouring(span), None, opacity),
+        "deformation": deformation_state(RatioColouring(span), RatioColouring(span).palette(), opacity),
     }
     done = run([NODE, SCRIPT], input=json.dumps(task, default=packed).encode(), capture_output=True, check=False)
     assert done.returncode == 0, done.stderr.decode()

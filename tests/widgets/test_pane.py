@@ -3,12 +3,11 @@ import json
 import numpy as np
 import pytest
 from comm import DummyComm
-from PIL import Image
 
 import seiswidgets as sw
 from seiswidgets.interaction.gestures import DoubleClick, Key, Move, Press, Release
-from seiswidgets.interaction.overlay import Mark, Overlay, Stroke
-from seiswidgets.widgets.section_view.texture import MOST_PIXELS, MOST_PIXELS_MOVING
+from seiswidgets.interaction.overlay import Mark, Overlay, Stroke, stroke_points
+from seiswidgets.widgets.section_view.texture import MOST_PIXELS
 
 SIZE = {"kind": "size", "width": 800, "height": 400, "ratio": 2, "fresh": True}
 QUIET = 2000  # bytes that a step of zooming or panning may send
@@ -216,58 +215,10 @@ def test_a_frame_is_what_fits(section, sent):
         pane.frame = 1, 0, 0, 1
 
 
-def restored(number, size=(600, 900)):
-    """A section like those that follow each other in a drag, with a gap that wanders."""
-    amplitude = np.sin(np.arange(size[0]) / 9 + number)[:, None] * np.ones(size[1])
-    amplitude[:, 400 + 3 * number : 480 + 3 * number] = np.nan
-    return sw.Section(amplitude, dx=2, dz=2)
-
-
-def test_a_section_that_moves_is_sent_quickly_in_one_message_each(sent, published):
-    pane = shown(restored(0), clip=100)
-    pane.show(restored(1), moving=True)
-    sent.clear(), published.clear()
-    for number in range(2, 6):
-        pane.show(restored(number), moving=True)
-    assert len(sent) == 4
-    assert not published  # no canvas made, closed or resized; the axes are the same
-    assert all(drawing.image().size / 4 <= MOST_PIXELS_MOVING for drawing in sent)
-    assert all(drawing.names.count("putImageData") == 1 for drawing in sent)
-    pane.show(pane.section)
-    assert len(sent) == 5
-    assert sent[-1].image().shape == (600, 900, 4)
-    pane.show(restored(7), moving=True)
-    pane.section = restored(8)
-    assert len(sent) == 7
-    assert sent[-1].image().shape == (600, 900, 4)
-
-
-def test_a_section_that_moves_looks_as_when_it_rests(sent):
-    pane = shown(restored(0), clip=100)
-    pane.show(restored(3), moving=True)
-    moving = sent[-1].image().astype(float)
-    pane.show(restored(3))
-    still = Image.fromarray(sent[-1].image())
-    still = np.asarray(still.resize(moving.shape[1::-1], Image.Resampling.BOX), float)
-    assert (np.abs(moving[..., 3] - still[..., 3]) <= 128).all()  # transparent where most is, at the gap's border too
-    known = (moving[..., 3] == 255) & (still[..., 3] == 255)
-    assert np.abs(moving - still)[known].max() < 20
-
-
-def test_zooming_while_it_moves_draws_what_is_then_seen(sent):
-    pane = shown(restored(0))
-    pane.show(restored(1), moving=True)
-    tell(pane, "wheel", x=400, y=200, steps=6)
-    tell(pane, "rest")
-    cells = np.diff(np.reshape(pane.view.window, (2, 2))).ravel() / 2
-    assert np.subtract(sent[-1].image().shape[1::-1], cells) == pytest.approx(1, abs=1)
-    assert sent[-1].names.count("drawImage") == 1
-
-
 def test_a_canvas_is_resized_before_it_is_painted(section, published):
     pane = shown(section)
     published.clear()
-    pane.show(sw.Section(section.amplitude[:50], dx=10, dz=5))
+    pane.section = sw.Section(section.amplitude[:50], dx=10, dz=5)
     data = [data for _, data, _ in published]
     assert {"height": 50} in [message["state"] for message in data[:-1]]
     assert data[-1]["method"] == "custom"
@@ -301,7 +252,7 @@ def test_what_the_layer_draws_it_is_told_in_the_units_of_the_section(section):
     pane = sw.SectionPane(section)
     pane.draw_lines([Stroke([[0, 0], [np.nan, 1], [1e9, 0]], dash=(3, 2), label="<b>", chosen=2)])
     (stroke,) = pane.layer.strokes
-    assert stroke["points"] == [[0, 0], None, [1e9, 0]]
+    np.testing.assert_array_equal(stroke_points(stroke), [[0, 0], [np.nan] * 2, [1e9, 0]])
     assert (stroke["dash"], stroke["label"], stroke["chosen"], stroke["dots"]) == ([3, 2], "<b>", 2, False)
     pane.draw_marks([Mark((1, 2), "cutoff", "7"), Mark((np.nan, 2), "held")])
     assert pane.layer.marks == [{"x": 1, "z": 2, "kind": "cutoff", "text": "7", "colour": "#212121"}]

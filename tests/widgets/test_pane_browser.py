@@ -84,9 +84,8 @@ pane.limit = 1.0
 for step in range(12):
     size = 300 + step // 4  # so that canvases are resized now and then
     moved = sw.Section(np.full((size, size), np.cos(step)), dx=10, dz=10)
-    pane.show(moved, moving=True)
+    pane.section = moved
     time.sleep(0.05)
-pane.show(moved)
 """
 STILL = "[pane.view.window, pane.view.backing]"
 PIXELS = """(number) => {

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.interaction.overlay import stroke_points
 from seiswidgets.widgets.picker import Picker
 from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
 
@@ -33,7 +34,7 @@ def drawn(picker):
 
 
 def lines(picker):
-    return [stroke["points"] for stroke in picker.pane.layer.strokes if not stroke["dots"]]
+    return [stroke_points(stroke).tolist() for stroke in picker.pane.layer.strokes if not stroke["dots"]]
 
 
 def rows(picker, kind):
@@ -197,8 +198,8 @@ def test_dots_of_a_dense_line_keep_apart_and_the_chosen_one_is_among_them(sectio
     appear(picker.pane)
     keys(picker.pane, *["PageDown"] * 8)
     (dots,) = (stroke for stroke in picker.pane.layer.strokes if stroke["dots"])
-    shown = np.array([point for point in dots["points"] if point])
-    assert dots["points"][dots["chosen"]] == [114.0, 300.0]
+    shown = stroke_points(dots)[::2]
+    assert stroke_points(dots)[dots["chosen"]].tolist() == [114.0, 300.0]
     pixels = picker.pane.view.to_pixels(shown)
     assert len(shown) < 40
     assert sorted(np.hypot(*np.diff(pixels, axis=0).T))[1] >= 10  # but for the chosen one

@@ -1,6 +1,7 @@
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.widgets.timeline import FRAMES
 
 
 @pytest.fixture
@@ -34,7 +35,7 @@ def test_it_begins_at_the_end(count):
     assert timeline.time == count
     assert timeline.moment == "restored"
     for control in controls(timeline):
-        assert (control.value, control.max, control.disabled) == (20 * count, 20 * count, False)
+        assert (control.value, control.max, control.disabled) == (FRAMES * count, FRAMES * count, False)
 
 
 @pytest.mark.parametrize(
@@ -48,16 +49,16 @@ def test_the_moment_in_words(timeline, time, moment):
 
 
 def test_time_follows_the_slider(timeline, told):
-    timeline.slider.value = 7
-    timeline.slider.value = 40
-    assert told == [0.35, 2.0]
-    assert timeline.play.value == 40  # so that Play goes on from here
+    timeline.slider.value = FRAMES // 4
+    timeline.slider.value = 2 * FRAMES
+    assert told == [0.25, 2.0]
+    assert timeline.play.value == 2 * FRAMES  # so that Play goes on from here
 
 
 def test_the_slider_follows_time_which_is_kept_as_it_was_set(timeline, told):
-    timeline.time = 1 / 3
-    assert told == [1 / 3]
-    assert [control.value for control in controls(timeline)] == [7, 7]
+    timeline.time = 0.3301
+    assert told == [0.3301]
+    assert [control.value for control in controls(timeline)] == [FRAMES // 3] * 2
 
 
 @pytest.mark.parametrize(
@@ -70,8 +71,8 @@ def test_other_labels_jump_to_the_end_with_one_change_at_most(timeline, told, la
     timeline.labels = labels
     assert timeline.time == len(labels)
     assert told == [len(labels)] * (before != len(labels))
-    assert [control.value for control in controls(timeline)] == [20 * len(labels)] * 2
-    assert [control.max for control in controls(timeline)] == [20 * max(1, len(labels))] * 2
+    assert [control.value for control in controls(timeline)] == [FRAMES * len(labels)] * 2
+    assert [control.max for control in controls(timeline)] == [FRAMES * max(1, len(labels))] * 2
     assert timeline.moment == ("restored" if labels else "nothing restored")
 
 

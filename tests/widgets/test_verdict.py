@@ -97,8 +97,8 @@ def test_a_stage_that_did_not_settle_is_one_problem(unsettled):
 
 def test_no_verdict_is_given_on_a_quick_look_or_on_nothing(case, unfaulted):
     assert Snapshot.of(sw.Restoration(case.section)).verdict is None
-    assert Snapshot.of(replace(unfaulted, quick=True), moving=True).verdict is None
-    assert Snapshot.of(unfaulted.at(0.5), moving=True).verdict == Snapshot.of(unfaulted).verdict
+    assert Snapshot.of(replace(unfaulted, quick=True)).verdict is None
+    assert Snapshot.of(unfaulted.at(0.5)).verdict == Snapshot.of(unfaulted).verdict
 
 
 @pytest.mark.parametrize(("finding", "role"), [(APART, "alert"), (LOOSE, "status"), (TOLD, "status")])
@@ -255,7 +255,7 @@ def test_no_verdict_stands_beside_a_newer_picture(app, case, monkeypatch):
     pane, vertex = app.panes.original, case.interpretation.horizons[0].pieces[0][3]
     press(pane, vertex)
     drag_to(pane, vertex + (0, 20.0))
-    assert app.panes.shown.moving
+    assert app.panes.shown.is_preview
     assert app.status.text == BUSY
     assert not app.panes.restored.badge.severity
     assert message(app.picker, "fault").layout.display == "none"

@@ -29,7 +29,7 @@ OVER = "({ scrollWidth, clientWidth }) => scrollWidth - clientWidth"
 def test_a_verdict_is_seen_where_one_looks_and_moves_nothing(notebook, dark):
     opened = notebook(CELL, dark=dark, height=1150)
     page = opened.page
-    page.get_by_role("status").get_by_text("Cut-offs meet.").wait_for()
+    page.get_by_role("status").get_by_text("Cut-offs meet").wait_for()
     top, badge = page.evaluate(TOP), page.locator(".seiswidgets-pane-badge span").first
     opened.ask("app.set_trait('interpretation', bad)")
     page.get_by_role("alert").get_by_text("(see Report)").wait_for()

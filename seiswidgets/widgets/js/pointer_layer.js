@@ -69,6 +69,7 @@ function render({ model, el }) {
     controller.abort();
     observer.disconnect();
     clearTimeout(view.restTimer);
+    view.live.stop();
     stopObserving();
     stopKeepingKeys();
   };

@@ -79,7 +79,7 @@ def _scale(panes: LinkedPanes) -> HBox:
     text.value = percentage()
     text.observe(enter, "value")
     panes.observe(lambda change: setattr(text, "value", percentage()), "span")
-    fit.on_click(lambda _: panes.set_trait("span", RatioColouring.of(panes.shown.ratio_before.ratio).span))
+    fit.on_click(lambda _: panes.set_trait("span", RatioColouring.of(panes.shown.ratio).span))
     return HBox([text, fit])
 
 

@@ -1,4 +1,6 @@
-"""Painting of a pane: the section in colours, quickly while it moves and finely at rest, and a map over it."""
+"""Painting of a pane: the section in colours, and a map over it."""
+
+from functools import cached_property
 
 from ipycanvas import MultiCanvas
 from ipywidgets import Layout
@@ -8,7 +10,7 @@ from seiswidgets.interaction.colour import Colouring
 from seiswidgets.interaction.overlay import Overlay
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.ipycanvas_compat import hold_canvases
-from seiswidgets.widgets.section_view.texture import Sample, Texture, detail, preview, resize, whole
+from seiswidgets.widgets.section_view.texture import Sample, Texture, detail, resize, whole
 
 
 class Painter:
@@ -23,28 +25,29 @@ class Painter:
 
     Attributes
     ----------
-    canvas : MultiCanvas
-        The widget: the section, and the overlay above it.
     colouring : Colouring
     opacity : float
         Opacity of the overlay, 0 to 1.
-    is_moving : bool
-        True if the section is drawn coarsely, since another follows soon.
     """
 
     def __init__(self, section: Section, layout: Layout):
-        self.canvas = MultiCanvas(2, width=900, height=600, layout=layout)
         self.colouring, self.opacity = Colouring("greys", 1.0), 1.0
-        self.is_moving, self._has_page = False, False
-        self._section = section
+        self._has_page = False
+        self._section, self._layout = section, layout
         self._overlay: Overlay | None = None
-        self._drawn_view: Viewport | None = None
         self._refined_view: Viewport | None = None
-        self._whole, self._detail, self._preview, self._map = self._textures = [Texture() for _ in range(4)]
+        self._whole, self._detail, self._map = self._textures = [Texture() for _ in range(3)]
 
-    def take_section(self, section: Section, is_moving: bool = False) -> None:
-        """Replace the section, to be drawn coarsely if it is moving."""
-        self._section, self.is_moving = section, is_moving
+    @cached_property
+    def canvas(self) -> MultiCanvas:
+        """The widget: the section, and the overlay above it."""
+        canvas = MultiCanvas(2, width=900, height=600, layout=self._layout)
+        canvas.add_class("seiswidgets-plot")
+        return canvas
+
+    def take_section(self, section: Section) -> None:
+        """Replace the section."""
+        self._section = section
         self._forget_section()
 
     def take_colouring(self, colouring: Colouring) -> None:
@@ -76,32 +79,29 @@ class Painter:
             self._paint(view)
             for canvas in (section, overlay):
                 canvas.clear_rect(0, 0, *view.backing)
-            for texture in (self._whole, self._detail, self._preview):
+            for texture in (self._whole, self._detail):
                 texture.draw_on(section, view)
             overlay.global_alpha = self.opacity
             self._map.draw_on(overlay, view)
-        self._drawn_view = view
 
     def sharpen(self, view: Viewport) -> None:
         """Draw a view afresh from the amplitudes if the picture of the whole section is too coarse for it."""
-        if self._has_page and not self.is_moving and view != self._refined_view:
+        if self._has_page and view != self._refined_view:
             with hold_canvases():
                 self._refine(view)
                 self.draw(view)
 
     def _forget_section(self) -> None:
-        for texture in (self._whole, self._detail, self._preview):
-            texture.forget()
+        self._whole.forget()
+        self._detail.forget()
 
     def _paint(self, view: Viewport) -> None:
-        """Paint the textures that are missing; a moving section is painted for one view only."""
-        if self.is_moving and not (self._preview.picture and view == self._drawn_view):
-            self._fill(self._preview, preview(self._section, view))
-        elif not self.is_moving and not self._whole.picture:
+        """Paint the textures that are missing."""
+        if not self._whole.picture:
             self._fill(self._whole, whole(self._section, view))
             self._refine(view)
         if self._overlay is not None and not self._map.picture:
-            self._map.paint(self._overlay.levels, self._overlay.palette, self._overlay.window, self.is_moving)
+            self._map.paint(self._overlay.levels, self._overlay.palette, self._overlay.window)
 
     def _refine(self, view: Viewport) -> None:
         self._refined_view = view
@@ -112,4 +112,4 @@ class Painter:
 
     def _fill(self, texture: Texture, sample: Sample) -> None:
         amplitude, window = sample
-        texture.paint(self.colouring.levels(amplitude), self.colouring.palette, window, self.is_moving)
+        texture.paint(self.colouring.levels(amplitude), self.colouring.palette, window)

@@ -1,6 +1,7 @@
 """A pane that shows a section, to be zoomed, panned and drawn on."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from html import escape
 from typing import Any
 
@@ -18,13 +19,14 @@ from seiswidgets.interaction.messages import GestureReader, PointerMessage, axes
 from seiswidgets.interaction.navigation import KEYS, Navigation
 from seiswidgets.interaction.overlay import Mark, Overlay, Stroke, map_state, mesh_state
 from seiswidgets.interaction.projection import PaneProjection
-from seiswidgets.interaction.viewport import Viewport
+from seiswidgets.interaction.viewport import Viewport, Window
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.ipycanvas_compat import hold_canvases
 from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.section_view.badge import PaneBadge
+from seiswidgets.widgets.section_view.live_picture import LivePicture
 from seiswidgets.widgets.section_view.painter import Painter
 from seiswidgets.widgets.section_view.pointer_layer import PointerLayer
 from seiswidgets.widgets.section_view.settings import checked_setting
@@ -65,6 +67,10 @@ class SectionPane(WithParts, VBox):
         0 to 1.
     height : int
         Height of the pane with its axes, in css pixels; it is as wide as the page.
+    picture : LivePicture, optional
+        Picture that the browser draws instead of the section; colours and overlays are then its own.
+    restored : bool
+        True to draw the restored section of that picture.
 
     Attributes
     ----------
@@ -77,11 +83,15 @@ class SectionPane(WithParts, VBox):
     projection : callable() -> PaneProjection
         The map from the present-day section, in whose coordinates gestures are, to the pane; may be set. By default
         the pane shows the present-day section itself.
+    line_projection : callable() -> PaneProjection
+        The same for the lines and marks to be drawn; it differs if the browser carries them on.
     layer : PointerLayer
     badge : PaneBadge
         Frame and label that mark a result that needs a look.
     message : str
         Text below the pane, usually an error.
+    note : str
+        Text in the corner, beside the vertical exaggeration.
     message_line : HTML
         The widget that shows it.
 
@@ -105,20 +115,29 @@ class SectionPane(WithParts, VBox):
     mesh_opacity = Float(0.6)
     height = Int(480)
     message = Unicode()
+    note = Unicode()
 
-    def __init__(self, section: Section, *, exaggeration: float | None = None, **settings: Any):
+    def __init__(
+        self,
+        section: Section,
+        *,
+        exaggeration: float | None = None,
+        picture: LivePicture | None = None,
+        restored: bool = False,
+        **settings: Any,
+    ):
         self.check_settings(settings)
-        self._navigation, self._gestures, self._will_move = Navigation(), GestureReader(), False
+        self._navigation, self._gestures = Navigation(), GestureReader()
         self._mesh: Mesh | None = None
         self._gesture_listeners: list[GestureListener] = []
         self._hover_listeners: list[HoverListener] = []
         self._pointer: Point | None = None  # in css pixels of the plot area; None while it is elsewhere
-        self.projection = lambda: PaneProjection(self.view)
+        self.projection = self.line_projection = lambda: PaneProjection(self.view)
         self._painter = Painter(section, _plot_area())
-        self._painter.canvas.add_class("seiswidgets-plot")
-        self.layer = PointerLayer(hotkeys=list(KEYS), layout=_plot_area())
+        self.layer = PointerLayer(hotkeys=list(KEYS), layout=_plot_area(), picture=picture, restored=restored)
         self.badge = PaneBadge(_plot_area())
-        self._grid = GridBox([self._painter.canvas, self.layer, self.badge], layout=_grid_layout())
+        canvases = [] if picture else [self._painter.canvas]
+        self._grid = GridBox([*canvases, self.layer, self.badge], layout=_grid_layout())
         self.message_line = HTML(layout=Layout(display="none"))
         super().__init__([self._grid, self.message_line], section=section, view=Viewport(section), **settings)
         dlink((self, "height"), (self._grid.layout, "height"), "{}px".format)
@@ -126,21 +145,6 @@ class SectionPane(WithParts, VBox):
         dlink((self, "mesh_opacity"), (self.layer, "mesh_opacity"))
         self.layer.on_pointer_message(self._receive)
         keep_order(self)
-
-    def show(self, section: Section, *, moving: bool = False) -> None:
-        """Show another section, in the same window unless the old one was shown whole.
-
-        A ``moving`` section, which another follows soon, is drawn quickly rather than finely. Setting ``section`` shows
-        one at rest.
-        """
-        with hold_canvases():
-            self._will_move = moving
-            try:
-                if section is self.section and moving != self._painter.is_moving:
-                    self._take_section()
-                self.section = section
-            finally:
-                self._will_move = False
 
     def draw_lines(self, strokes: Sequence[Stroke]) -> None:
         """Replace the lines on the section."""
@@ -204,6 +208,12 @@ class SectionPane(WithParts, VBox):
         """Show the whole section, or the frame."""
         self.view = self.view.fitted()
 
+    def reframe(self, frame: Window, *, follow: bool) -> None:
+        """Replace the frame; a fitted view follows it, or keeps its window like any other."""
+        view = self.view.with_frame(frame)
+        self.view = view if follow else replace(view, window=self.view.window)
+        self.frame = frame
+
     @validate("clip", "limit", "gain", "colours", "height", "frame", "overlay_opacity", "mesh_opacity")
     def _valid(self, proposal: Bunch) -> Any:
         return checked_setting(proposal.trait.name, proposal.value)
@@ -211,7 +221,7 @@ class SectionPane(WithParts, VBox):
     @observe("section")
     def _take_section(self, change: Bunch | None = None) -> None:
         with hold_canvases():
-            self._painter.take_section(self.section, self._will_move)
+            self._painter.take_section(self.section)
             self._painter.colouring = self.colouring
             self.layer.label = f"{self.section.name or 'seismic section'}; zoom with + and -, 0 fits, arrows pan"
             if self.view.section is not self.section:
@@ -223,11 +233,11 @@ class SectionPane(WithParts, VBox):
     def _take_frame(self, change: Bunch) -> None:
         self.view = self.view.with_frame(self.frame)
 
-    @observe("view")
+    @observe("view", "note")
     def _take_view(self, change: Bunch) -> None:
         with hold_canvases(), self.layer.hold_sync():
             self.exaggeration = self.view.exaggeration
-            self.layer.axes, self.layer.window = axes_state(self.view, LEFT), list(self.view.window)
+            self.layer.axes, self.layer.window = axes_state(self.view, LEFT, self.note), list(self.view.window)
             self.layer.size = self.view.size.tolist()
             self._painter.draw(self.view)
         if self._pointer is not None:  # which is at another point now
@@ -297,7 +307,7 @@ class SectionPane(WithParts, VBox):
         """Adopt the size of the plot area in the browser; send everything to a page that has just appeared."""
         with hold_canvases():
             self.view = self.view.resized(message.width, message.height, message.ratio)
-            if message.fresh:
+            if message.fresh and self.layer.picture is None:
                 self._painter.resend(self.view)
             self._painter.sharpen(self.view)
 

@@ -4,11 +4,12 @@ from collections.abc import Callable
 from typing import Any
 
 import anywidget
-from ipywidgets import CallbackDispatcher
-from traitlets import Dict, Float, List, Unicode
+from ipywidgets import CallbackDispatcher, widget_serialization
+from traitlets import Bool, Dict, Float, Instance, List, Unicode
 
 from seiswidgets.interaction.messages import PointerMessage
 from seiswidgets.widgets.assets import asset
+from seiswidgets.widgets.section_view.live_picture import LivePicture
 
 ANSWERED = ("drag", "hover", "wheel", "pinch")  # the browser sends the next of these once the last is answered
 
@@ -47,6 +48,10 @@ class PointerLayer(anywidget.AnyWidget):
         taken: while held, it pans; released without a drag, it is sent as a key if it is one of these.
     label : str
         Description for screen readers.
+    picture : LivePicture or None
+        Picture that the layer draws below everything else; then it carries points by the picture's meshes.
+    restored : bool
+        True to draw the restored section; strokes, marks and the rubber band are then where they are at the end.
     """
 
     _esm = asset("pointer_layer.js")
@@ -65,6 +70,8 @@ class PointerLayer(anywidget.AnyWidget):
     linked = Dict().tag(sync=True)
     hotkeys = List(Unicode()).tag(sync=True)
     label = Unicode("seismic section").tag(sync=True)
+    picture = Instance(LivePicture, allow_none=True).tag(sync=True, **widget_serialization)
+    restored = Bool(False).tag(sync=True)
 
     def __init__(self, **traits: Any):
         super().__init__(**traits)

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from seiswidgets.interaction.colour import resampled
-from seiswidgets.interaction.drawing import Point
+from seiswidgets.interaction.overlay import stroke_points
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.section_view.badge import PaneBadge
 from seiswidgets.widgets.section_view.pane import SectionPane
@@ -40,7 +40,7 @@ def _picture(title: str, pane: SectionPane) -> Image.Image:
     draw = ImageDraw.Draw(picture)
     picture.paste(_section(pane, view), (LEFT, TOP))
     for stroke in pane.layer.strokes:
-        for run in _runs(stroke["points"]):
+        for run in _runs(stroke_points(stroke)):
             draw.line((view.to_pixels(run) + (LEFT, TOP)).ravel().tolist(), fill=stroke["colour"], width=2)
     draw.rectangle((LEFT, TOP, LEFT + SIZE[0], TOP + SIZE[1]), outline=INK)
     draw.text((LEFT, 4), title, fill=INK)
@@ -77,13 +77,10 @@ def _section(pane: SectionPane, view: Viewport) -> Image.Image:
     return image.convert("RGB")
 
 
-def _runs(points: Sequence[Point | None]) -> Iterator[np.ndarray]:
-    """Split a line at its breaks, which are None."""
-    run: list[Point] = []
-    for point in [*points, None]:
-        if point is not None:
-            run.append(point)
-            continue
-        if len(run) > 1:
-            yield np.array(run)
-        run = []
+def _runs(points: np.ndarray) -> Iterator[np.ndarray]:
+    """Split a line where it is interrupted."""
+    known = np.isfinite(points).all(axis=1)
+    for run in np.split(np.arange(len(points)), np.flatnonzero(~known)):
+        kept = points[run[known[run]]]
+        if len(kept) > 1:
+            yield kept

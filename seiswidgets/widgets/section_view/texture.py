@@ -9,7 +9,6 @@ from seiswidgets.interaction.viewport import Viewport, Window
 from seiswidgets.widgets.ipycanvas_compat import put_picture
 
 MOST_PIXELS = 2_000_000  # in a picture of a whole section
-MOST_PIXELS_MOVING = 150_000  # in a moving picture: more take longer to encode than a drag allows
 
 Size = tuple[int, int]  # width and height
 Sample = tuple[np.ndarray, Window]  # amplitudes, and the window that they cover
@@ -33,10 +32,10 @@ class Texture:
         self._window: Window = 0.0, 1.0, 0.0, 1.0
         self.size, self.picture = (0, 0), b""
 
-    def paint(self, levels: np.ndarray, palette: np.ndarray, window: Window, quick: bool = False) -> None:
+    def paint(self, levels: np.ndarray, palette: np.ndarray, window: Window) -> None:
         """Encode levels in the colours of a palette, and send them; see `encode_png`."""
         self.size, self._window = levels.shape[::-1], window
-        self.picture = encode_png(levels, palette, quick)
+        self.picture = encode_png(levels, palette)
         self.send()
 
     def send(self) -> None:
@@ -79,11 +78,6 @@ def whole(section: Section, view: Viewport) -> Sample:
 def detail(section: Section, view: Viewport) -> Sample:
     """Amplitudes in a view, as fine as its pixels allow."""
     return _sample(section, view.window, view.backing)
-
-
-def preview(section: Section, view: Viewport) -> Sample:
-    """Amplitudes in a view, averaged until they can follow a drag."""
-    return _sample(section, view.window, _reduced(view.backing, MOST_PIXELS_MOVING))
 
 
 def _sample(section: Section, window: Window, most: Size) -> Sample:

@@ -595,9 +595,15 @@ function appendText(parent, className, attributes, content) {
   text.textContent = content;
   return text;
 }
-function togglePale(text, coloured) {
-  const [red, green, blue] = (getComputedStyle(coloured).fill.match(/\d+/g) ?? [0, 0, 0]).map(Number);
-  text.classList.toggle("pale", 0.299 * red + 0.587 * green + 0.114 * blue > PALE);
+var paleColours = /* @__PURE__ */ new Map();
+function togglePale(text, coloured, colour) {
+  let isPale = paleColours.get(colour);
+  if (isPale === void 0) {
+    const [red, green, blue] = (getComputedStyle(coloured).fill.match(/\d+/g) ?? [0, 0, 0]).map(Number);
+    isPale = 0.299 * red + 0.587 * green + 0.114 * blue > PALE;
+    paleColours.set(colour, isPale);
+  }
+  text.classList.toggle("pale", isPale);
 }
 function pathData(points) {
   let command = "M";
@@ -647,13 +653,496 @@ function drawRubberBand(group, rubber, pointer, plotArea) {
   for (const className of ["halo", "rubber"]) append(group, "path", className, { d });
 }
 
+// picture/texture.js
+var NO_DATA = -32768;
+
+// picture/painter.js
+var FULL = 256;
+var OPAQUE = 4278190080;
+var Painter = class {
+  /**
+   * @param {Uint32Array} pixels
+   * @param {number} width
+   * @param {Texture} texture
+   * @param {Colours} colours
+   * @param {Deformation} deformation
+   */
+  constructor(pixels, width, texture, colours, deformation) {
+    this.pixels = pixels;
+    this.width = width;
+    this.texture = texture;
+    this.factor = colours.factor;
+    this.colours = new Uint32Array(colours.palette.buffer, colours.palette.byteOffset, 256);
+    this.tints = tints(deformation);
+    this.levelsPerLog = 127 / Math.log(deformation.span);
+    this.sample = texture.hasGaps ? this.sampleBesideGaps : this.sampleWhole;
+  }
+  /**
+   * Paint a run of pixels from samples on a straight line.
+   *
+   * @param {number} row
+   * @param {number} column
+   * @param {number} count
+   * @param {number} x in samples of the section
+   * @param {number} z
+   * @param {number} dx
+   * @param {number} dz
+   */
+  paint(row, column, count, x, z, dx, dz) {
+    const { stepX, stepZ } = this.texture;
+    const [u, v] = [(x + 0.5) / stepX - 0.5, (z + 0.5) / stepZ - 0.5];
+    this.sample(row * this.width + column, count, u, v, dx / stepX, dz / stepZ);
+  }
+  /**
+   * @param {number} start
+   * @param {number} count
+   * @param {number} u
+   * @param {number} v
+   * @param {number} du
+   * @param {number} dv
+   */
+  sampleWhole(start, count, u, v, du, dv) {
+    const { pixels, colours, factor } = this;
+    const { data, width, height } = this.texture;
+    const [lastX, lastZ] = [width - 1, height - 1];
+    for (let i = 0; i < count; i++) {
+      const x = Math.min(Math.max(u + i * du, 0), lastX);
+      const z = Math.min(Math.max(v + i * dv, 0), lastZ);
+      const left = x | 0;
+      const above = z | 0;
+      const at = above * width + left;
+      const right = left < lastX ? 1 : 0;
+      const below = above < lastZ ? width : 0;
+      const upper = data[at] + (x - left) * (data[at + right] - data[at]);
+      const lower = data[at + below] + (x - left) * (data[at + below + right] - data[at + below]);
+      const level = 128.5 + factor * (upper + (z - above) * (lower - upper));
+      pixels[start + i] = colours[Math.min(Math.max(level, 1), 255) | 0];
+    }
+  }
+  /**
+   * As `sampleWhole`, from the samples that have data, if these make up half of the weight.
+   *
+   * @param {number} start
+   * @param {number} count
+   * @param {number} u
+   * @param {number} v
+   * @param {number} du
+   * @param {number} dv
+   */
+  sampleBesideGaps(start, count, u, v, du, dv) {
+    const { pixels, colours, factor, texture } = this;
+    for (let i = 0; i < count; i++) {
+      const value = meanOfData(texture, u + i * du, v + i * dv);
+      const level = 128.5 + factor * value;
+      pixels[start + i] = colours[value === NO_DATA ? 0 : Math.min(Math.max(level, 1), 255) | 0];
+    }
+  }
+  /**
+   * Lay the colour of an area ratio over a run of pixels.
+   *
+   * @param {number} row
+   * @param {number} column
+   * @param {number} count
+   * @param {number} logRatio
+   */
+  tint(row, column, count, logRatio) {
+    const { pixels } = this;
+    const level = 128 + Math.round(Math.max(-127, Math.min(logRatio * this.levelsPerLog, 127)));
+    const colour = this.tints.colours[level];
+    const rest = this.tints.rests[level];
+    if (rest === FULL) return;
+    const start = row * this.width + column;
+    for (let i = start; i < start + count; i++) {
+      const under = pixels[i];
+      if (under >>> 24 === 0) continue;
+      const redBlue = Math.imul(under & 16711935, rest) >>> 8 & 16711935;
+      const green = Math.imul(under & 65280, rest) >>> 8 & 65280;
+      pixels[i] = (redBlue | green) + colour | OPAQUE;
+    }
+  }
+};
+function tints({ palette, opacity }) {
+  const colours = new Uint32Array(256);
+  const rests = new Uint16Array(256);
+  for (let level = 0; level < 256; level++) {
+    const [red, green, blue, opaque] = palette.subarray(4 * level, 4 * level + 4);
+    const alpha = opaque / 255 * opacity;
+    rests[level] = Math.round(FULL * (1 - alpha));
+    colours[level] = alpha * red | alpha * green << 8 | alpha * blue << 16;
+  }
+  return { colours, rests };
+}
+function meanOfData({ data, width, height }, u, v) {
+  const x = Math.min(Math.max(u, 0), width - 1);
+  const z = Math.min(Math.max(v, 0), height - 1);
+  const [left, above] = [x | 0, z | 0];
+  const [right, below] = [Math.min(left + 1, width - 1), Math.min(above + 1, height - 1)];
+  let [sum, share] = [0, 0];
+  for (const [column, weightX] of [
+    [left, 1 - x + left],
+    [right, x - left]
+  ]) {
+    for (const [row, weightZ] of [
+      [above, 1 - z + above],
+      [below, z - above]
+    ]) {
+      const value = data[row * width + column];
+      if (value === NO_DATA) continue;
+      sum += weightX * weightZ * value;
+      share += weightX * weightZ;
+    }
+  }
+  return share < 0.5 ? NO_DATA : sum / share;
+}
+
+// picture/spans.js
+var TOLERANCE = 1e-5;
+function forEachSpan(corners, triangles, { width, height }, visit) {
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [top, middle, bottom] = downwards(corners, triangles, i);
+    const topX = corners[top];
+    const topY = corners[top + 1];
+    const middleX = corners[middle];
+    const middleY = corners[middle + 1];
+    const bottomX = corners[bottom];
+    const bottomY = corners[bottom + 1];
+    if (!isSolid(topX, topY, middleX, middleY, bottomX, bottomY)) continue;
+    const lastRow = Math.min(Math.floor(bottomY), height - 1);
+    for (let row = Math.max(Math.ceil(topY), 0); row <= lastRow; row++) {
+      const straight = crossing(topX, topY, bottomX, bottomY, row);
+      const bent = row >= middleY ? crossing(middleX, middleY, bottomX, bottomY, row) : crossing(topX, topY, middleX, middleY, row);
+      const first = Math.max(Math.ceil(Math.min(straight, bent) - TOLERANCE), 0);
+      const last = Math.min(Math.floor(Math.max(straight, bent) + TOLERANCE), width - 1);
+      if (first <= last) visit(i / 3, row, first, last);
+    }
+  }
+}
+function toGrid(vertices, { left, top, stepX, stepZ }) {
+  const result = new Float64Array(vertices.length);
+  for (let i = 0; i < vertices.length; i += 2) {
+    result[i] = snapped((vertices[i] - left) / stepX);
+    result[i + 1] = snapped((vertices[i + 1] - top) / stepZ);
+  }
+  return result;
+}
+function snapped(position) {
+  const node = Math.round(position);
+  return Math.abs(position - node) <= TOLERANCE ? node : position;
+}
+function downwards(corners, triangles, i) {
+  let [a, b, c] = [2 * triangles[i], 2 * triangles[i + 1], 2 * triangles[i + 2]];
+  if (corners[b + 1] < corners[a + 1]) [a, b] = [b, a];
+  if (corners[c + 1] < corners[b + 1]) [b, c] = [c, b];
+  if (corners[b + 1] < corners[a + 1]) [a, b] = [b, a];
+  return [a, b, c];
+}
+function isSolid(ax, ay, bx, by, cx, cy) {
+  const longest = Math.max(Math.max(ax, bx, cx) - Math.min(ax, bx, cx), cy - ay);
+  return Math.abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) > TOLERANCE * longest;
+}
+function crossing(fromX, fromY, toX, toY, row) {
+  const share = (row - fromY) / Math.max(toY - fromY, Number.MIN_VALUE);
+  return fromX + Math.max(0, Math.min(share, 1)) * (toX - fromX);
+}
+
+// picture/tracer.js
+var Tracer = class {
+  /**
+   * @param {PiecewiseAffineMap[]} maps at least one
+   * @param {TakeRun} takeRun
+   */
+  constructor(maps, takeRun) {
+    this.levels = maps.map(({ finder, target, logRatios }) => ({ finder, affine: affine(finder, target), logRatios }));
+    this.takeRun = takeRun;
+    this.starts = maps.map(() => 0);
+  }
+  /** @param {Grid} grid */
+  trace(grid) {
+    const { finder } = this.levels[0];
+    forEachSpan(toGrid(finder.vertices, grid), finder.triangles, grid, (triangle, row, first, last) => {
+      const [x, z] = [grid.left + first * grid.stepX, grid.top + row * grid.stepZ];
+      this.carry(0, triangle, row, first, last - first + 1, x, z, grid.stepX, 0, 0);
+    });
+  }
+  /**
+   * Carry pixels that one triangle of a map holds to the next map.
+   *
+   * @param {number} level
+   * @param {number} triangle
+   * @param {number} row
+   * @param {number} column
+   * @param {number} count
+   * @param {number} x
+   * @param {number} z
+   * @param {number} dx
+   * @param {number} dz
+   * @param {number} logRatio
+   */
+  carry(level, triangle, row, column, count, x, z, dx, dz, logRatio) {
+    const { affine: affine2, logRatios } = this.levels[level];
+    const at = 8 * triangle;
+    const right = x - affine2[at];
+    const down = z - affine2[at + 1];
+    const newX = affine2[at + 2] + affine2[at + 4] * right + affine2[at + 5] * down;
+    const newZ = affine2[at + 3] + affine2[at + 6] * right + affine2[at + 7] * down;
+    const newDx = affine2[at + 4] * dx + affine2[at + 5] * dz;
+    const newDz = affine2[at + 6] * dx + affine2[at + 7] * dz;
+    const sum = logRatio + logRatios[triangle];
+    if (level + 1 === this.levels.length) this.takeRun(row, column, count, newX, newZ, newDx, newDz, sum);
+    else this.split(level + 1, row, column, count, newX, newZ, newDx, newDz, sum);
+  }
+  /**
+   * Split pixels on a straight line into those of each triangle of a map.
+   *
+   * @param {number} level
+   * @param {number} row
+   * @param {number} column
+   * @param {number} count
+   * @param {number} x
+   * @param {number} z
+   * @param {number} dx
+   * @param {number} dz
+   * @param {number} logRatio
+   */
+  split(level, row, column, count, x, z, dx, dz, logRatio) {
+    const { finder } = this.levels[level];
+    let triangle = this.starts[level];
+    let done = 0;
+    while (done < count) {
+      const nextX = x + done * dx;
+      const nextZ = z + done * dz;
+      const held = finder.walk(triangle, nextX, nextZ);
+      if (held < 0) {
+        done++;
+        continue;
+      }
+      if (done === 0) this.starts[level] = held;
+      const inside = Math.min(stepsInside(finder, held, nextX, nextZ, dx, dz), count - done);
+      this.carry(level, held, row, column + done, inside, nextX, nextZ, dx, dz, logRatio);
+      triangle = held;
+      done += inside;
+    }
+  }
+};
+function stepsInside({ coefficients, tolerance }, triangle, x, z, dx, dz) {
+  const at = 6 * triangle;
+  const right = x - coefficients[at];
+  const down = z - coefficients[at + 1];
+  const b = coefficients[at + 2] * right + coefficients[at + 3] * down;
+  const c = coefficients[at + 4] * right + coefficients[at + 5] * down;
+  const db = coefficients[at + 2] * dx + coefficients[at + 3] * dz;
+  const dc = coefficients[at + 4] * dx + coefficients[at + 5] * dz;
+  const da = -db - dc;
+  let steps = Number.POSITIVE_INFINITY;
+  if (da < 0) steps = (1 - b - c + tolerance) / -da;
+  if (db < 0) steps = Math.min(steps, (b + tolerance) / -db);
+  if (dc < 0) steps = Math.min(steps, (c + tolerance) / -dc);
+  return Math.max(1, Math.floor(steps) + 1);
+}
+function affine({ coefficients, triangles }, target) {
+  const result = new Float64Array(8 * triangles.length / 3);
+  for (let i = 0, from = 0, to = 0; i < triangles.length; i += 3, from += 6, to += 8) {
+    const a = 2 * triangles[i];
+    const b = 2 * triangles[i + 1];
+    const c = 2 * triangles[i + 2];
+    for (let axis = 0; axis < 2; axis++) {
+      const origin = target[a + axis];
+      const along = target[b + axis] - origin;
+      const across = target[c + axis] - origin;
+      result[to + axis] = coefficients[from + axis];
+      result[to + 2 + axis] = origin;
+      result[to + 4 + 2 * axis] = along * coefficients[from + 2] + across * coefficients[from + 4];
+      result[to + 5 + 2 * axis] = along * coefficients[from + 3] + across * coefficients[from + 5];
+    }
+  }
+  return result;
+}
+
+// picture/scene.js
+function drawSection(pixels, size, scene) {
+  const { painter, grid, isTinted } = prepare(pixels, size, scene);
+  if (!scene.isRestored || !scene.maps.length) return drawPresentDay(painter, grid, scene.texture.section);
+  new Tracer(scene.maps, (row, column, count, x, z, dx, dz, logRatio) => {
+    painter.paint(row, column, count, x, z, dx, dz);
+    if (isTinted) painter.tint(row, column, count, -logRatio);
+  }).trace(grid);
+}
+function drawRatios(pixels, size, scene) {
+  const { painter, grid, isTinted } = prepare(pixels, size, scene);
+  if (!scene.maps.length || !isTinted) return;
+  new Tracer(scene.maps, (row, column, count, _x, _z, _dx, _dz, logRatio) => {
+    painter.tint(row, column, count, logRatio);
+  }).trace(grid);
+}
+function prepare(pixels, size, { texture, window: [left, right, top, bottom], colours, deformation }) {
+  const [stepX, stepZ] = [(right - left) / size.width, (bottom - top) / size.height];
+  const grid = { left: left + stepX / 2, top: top + stepZ / 2, stepX, stepZ, ...size };
+  const painter = new Painter(pixels, size.width, texture.reducedTo(stepX, stepZ), colours, deformation);
+  return { painter, grid, isTinted: deformation.opacity > 0 };
+}
+function drawPresentDay(painter, { left, top, stepX, stepZ, width, height }, section) {
+  const [first, last] = within(left, stepX, width, section.width);
+  const [firstRow, lastRow] = within(top, stepZ, height, section.height);
+  const count = last - first + 1;
+  if (count < 1) return;
+  for (let row = firstRow; row <= lastRow; row++)
+    painter.paint(row, first, count, left + first * stepX, top + row * stepZ, stepX, 0);
+}
+function within(start, step, pixels, samples) {
+  const first = Math.ceil((-0.5 - start) / step - 1e-9);
+  const last = Math.floor((samples - 0.5 - start) / step + 1e-9);
+  return [Math.max(first, 0), Math.min(last, pixels - 1)];
+}
+
+// pointer_layer/live_pane.js
+var LONGEST_HOLD = 1e3;
+var PARTS_BY_TRAIT = {
+  stages: ["picture", "mesh", "strokes", "marks", "cursors"],
+  frame: ["picture", "mesh", "strokes", "marks", "cursors"],
+  texture: ["picture"],
+  revision: ["picture"],
+  picture: ["picture", "mesh"],
+  colours: ["picture"],
+  deformation: ["picture"],
+  changing: []
+  // draws what was held back
+};
+var LivePane = class {
+  /**
+   * @param {import("./types.js").Model} model of the pane's layer
+   * @param {HTMLElement} el
+   * @param {(parts: Part[]) => void} requestDraw
+   */
+  constructor(model, el, requestDraw) {
+    this.isRestored = model.get("restored");
+    this.model = null;
+    this.canvas = document.createElement("canvas");
+    this.pixels = new ImageData(1, 1);
+    this.base = [];
+    this.section = new Uint32Array(0);
+    this.heldAt = -Infinity;
+    this.isStopped = false;
+    this.stop = () => {
+      this.isStopped = true;
+    };
+    const reference = model.get("picture");
+    if (reference) this.start(model.widget_manager.get_model(reference.replace("IPY_MODEL_", "")), el, requestDraw);
+  }
+  /**
+   * @param {Promise<import("../picture/types.js").PictureModel>} promise
+   * @param {HTMLElement} el
+   * @param {(parts: Part[]) => void} requestDraw
+   */
+  async start(promise, el, requestDraw) {
+    this.canvas.className = "seiswidgets-plot";
+    el.prepend(this.canvas);
+    const model = await promise;
+    if (this.isStopped) return;
+    this.model = model;
+    const handlers = Object.entries(PARTS_BY_TRAIT).map(([trait, parts]) => [
+      `change:${trait}`,
+      () => requestDraw(parts)
+    ]);
+    handlers.push(["change:changing", () => this.heldAt = performance.now()]);
+    for (const [name, handler] of handlers) model.on(name, handler);
+    this.stop = () => {
+      for (const [name, handler] of handlers) model.off(
+        /** @type {"change:frame"} */
+        name,
+        handler
+      );
+    };
+    requestDraw(["picture", "mesh"]);
+  }
+  /** The picture, once its own script has run. */
+  get picture() {
+    return this.model?.get("picture") ?? null;
+  }
+  /** True while the kernel is changing several things that are to be seen at once. */
+  get isHeld() {
+    return Boolean(this.model?.get("changing")) && performance.now() - this.heldAt < LONGEST_HOLD;
+  }
+  /** @param {import("./plot_area.js").PlotArea} plotArea */
+  drawPicture({ width, height, model }) {
+    const { picture, canvas } = this;
+    if (!picture) return;
+    const ratio = window.devicePixelRatio || 1;
+    const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
+    if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
+    if (this.pixels.width !== size.width || this.pixels.height !== size.height)
+      this.pixels = new ImageData(size.width, size.height);
+    const scene = picture.scene(this.isRestored, model.get("window"));
+    this.drawScene(new Uint32Array(this.pixels.data.buffer), size, scene);
+    canvas.getContext("2d")?.putImageData(this.pixels, 0, 0);
+  }
+  /**
+   * Draw a scene; the section under the colours of the present-day pane is kept, since it stays the same in a drag.
+   *
+   * @param {Uint32Array} pixels
+   * @param {{ width: number, height: number }} size
+   * @param {import("../picture/scene.js").Scene} scene
+   */
+  drawScene(pixels, size, scene) {
+    const base = [scene.texture, scene.colours, size.width, size.height, ...scene.window];
+    if (scene.isRestored || base.some((value, i) => value !== this.base[i])) {
+      pixels.fill(0);
+      drawSection(pixels, size, scene);
+    } else pixels.set(this.section);
+    if (scene.isRestored) return;
+    this.base = base;
+    this.section = pixels.slice();
+    drawRatios(pixels, size, scene);
+  }
+  get mesh() {
+    return this.picture?.mesh(this.isRestored) ?? null;
+  }
+  /**
+   * The place of a point of this pane in the other one; null if it has none or there is no picture.
+   *
+   * @param {SectionPoint} point
+   */
+  carried(point) {
+    const { picture } = this;
+    const carried = picture && carry(picture.maps(this.isRestored), picture.toSamples(point));
+    return carried && picture.fromSamples(carried);
+  }
+  /**
+   * Points of the restored section at the present time: the kernel sends them as they are at the end.
+   *
+   * @template {[number, number] | null} Point
+   * @param {Point[]} points
+   * @returns {(Point | null)[]}
+   */
+  places(points) {
+    const { picture } = this;
+    if (!picture || !this.isRestored || picture.isAtEnd) return points;
+    return points.map((point) => {
+      const placed = point && picture.placed({ x: point[0], z: point[1] });
+      return placed && /** @type {Point} */
+      [placed.x, placed.z];
+    });
+  }
+  /** @param {[number, number][]} points */
+  placedPoints(points) {
+    return this.places(points).filter((point) => point !== null);
+  }
+  /** @param {import("./types.js").Stroke[]} strokes */
+  placedStrokes(strokes) {
+    return strokes.map((stroke) => ({ ...stroke, points: this.places(stroke.points) }));
+  }
+  /** @param {import("./types.js").Mark[]} marks */
+  placedMarks(marks) {
+    return marks.flatMap((mark) => this.places([[mark.x, mark.z]]).map((at) => at && { ...mark, x: at[0], z: at[1] })).filter((mark) => mark !== null);
+  }
+};
+
 // pointer_layer/marks.js
 var PIN = "M0,0C-2,-6 -7,-9 -7,-14A7,7 0 1 1 7,-14C7,-9 2,-6 0,0Z";
 var CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 var DRAW = {
   cutoff(group, mark) {
     const disc = append(group, "circle", "disc", { r: 8, fill: mark.colour });
-    togglePale(appendText(group, "number", { y: 3.5 }, mark.text), disc);
+    togglePale(appendText(group, "number", { y: 3.5 }, mark.text), disc, mark.colour);
   },
   held(group, mark) {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });
@@ -677,14 +1166,13 @@ function drawMarks(group, marks, plotArea) {
 
 // pointer_layer/mesh.js
 var UNITS = 10;
-function drawMesh(path, { vertices, edges }, opacity, plotArea) {
+function drawMesh(path, mesh, opacity, plotArea) {
   path.setAttribute("transform", `scale(${1 / UNITS})`);
   path.setAttribute("stroke-opacity", String(opacity));
-  path.setAttribute("d", vertices && edges && opacity > 0 ? visibleEdges(vertices, edges, plotArea) : "");
+  path.setAttribute("d", mesh && opacity > 0 ? visibleEdges(mesh.vertices, mesh.edges, plotArea) : "");
 }
-function visibleEdges(vertices, edges, plotArea) {
-  const [xs, ys] = pathCoordinates(toNumbers(vertices, Float64Array), plotArea);
-  const ends = toNumbers(edges, Uint32Array);
+function visibleEdges(vertices, ends, plotArea) {
+  const [xs, ys] = pathCoordinates(vertices, plotArea);
   const [width, height] = [UNITS * plotArea.width, UNITS * plotArea.height];
   let data = "";
   for (let i = 0; i < ends.length; i += 2) {
@@ -780,6 +1268,17 @@ var HALO = 1.5;
 var LABEL_MARGIN = 4;
 var LABEL_OFFSET = 9;
 var CAPITAL_HEIGHT = 10;
+function decodeStroke({ origin, points, ...look }) {
+  const offsets = toNumbers(points, Float32Array);
+  const decoded = Array.from({ length: offsets.length / 2 }, (_, i) => {
+    const [x, z] = [origin[0] + offsets[2 * i], origin[1] + offsets[2 * i + 1]];
+    return Number.isNaN(x) ? null : (
+      /** @type {[number, number]} */
+      [x, z]
+    );
+  });
+  return { ...look, points: decoded };
+}
 function drawStrokes(group, strokes, plotArea) {
   group.replaceChildren();
   const lines = append(group, "g", "lines");
@@ -810,10 +1309,16 @@ function drawLabel(group, stroke, pixels, plotArea) {
   if (!start) return;
   const label = appendText(group, "name", {}, stroke.label);
   label.style.fill = stroke.colour;
-  togglePale(label, label);
-  const { x, y } = labelPosition(start, label.getComputedTextLength(), plotArea);
+  togglePale(label, label, stroke.colour);
+  const { x, y } = labelPosition(start, lengthOf(label, stroke.label), plotArea);
   label.setAttribute("x", String(x));
   label.setAttribute("y", String(y));
+}
+var lengths = /* @__PURE__ */ new Map();
+function lengthOf(label, content) {
+  const length = lengths.get(content) ?? label.getComputedTextLength();
+  if (length > 0) lengths.set(content, length);
+  return length;
 }
 function labelPosition(point, length, { width, height }) {
   const right = Math.min(point.x + LABEL_OFFSET, width - length - LABEL_MARGIN);
@@ -849,12 +1354,12 @@ function entryPoint(from, to, { width, height }) {
 
 // pointer_layer/view.js
 var REST = 250;
-var ALL_PARTS = ["axes", "mesh", "strokes", "marks", "cursors"];
-var PARTS_BY_TRAIT = {
+var ALL_PARTS = ["axes", "picture", "mesh", "strokes", "marks", "cursors"];
+var PARTS_BY_TRAIT2 = {
   axes: ["axes"],
   label: ["axes"],
   size: ["axes"],
-  window: ["mesh", "strokes", "marks", "cursors"],
+  window: ["picture", "mesh", "strokes", "marks", "cursors"],
   strokes: ["strokes"],
   marks: ["marks"],
   mesh: ["mesh"],
@@ -888,7 +1393,9 @@ var LayerView = class {
     this.plotArea = new PlotArea(model, this.elements.plot);
     this.pointer = null;
     this.maps = null;
+    this.live = new LivePane(model, el, (parts) => this.requestDraw(parts));
     this.outdated = /* @__PURE__ */ new Set();
+    this.isScheduled = false;
     this.hasReported = false;
     this.restTimer = void 0;
   }
@@ -898,18 +1405,39 @@ var LayerView = class {
    * @param {Part[]} parts
    */
   requestDraw(parts) {
-    if (!this.outdated.size) requestAnimationFrame(() => this.draw());
     for (const part of parts) this.outdated.add(part);
+    if (this.isScheduled || !this.outdated.size) return;
+    this.isScheduled = true;
+    requestAnimationFrame(() => {
+      this.isScheduled = false;
+      this.draw();
+    });
   }
+  /** Draw everything outdated at once; while the kernel is changing several things, only what follows the pointer. */
   draw() {
-    const { model, plotArea, elements, outdated } = this;
-    this.outdated = /* @__PURE__ */ new Set();
+    const { plotArea, outdated } = this;
+    const isHeld = this.live.isHeld;
+    this.outdated = new Set(isHeld ? [...outdated].filter((part) => part !== "cursors") : []);
     if (!plotArea.isReady) return;
-    if (outdated.has("axes")) this.drawAxes();
-    if (outdated.has("mesh")) drawMesh(elements.mesh, model.get("mesh"), model.get("mesh_opacity"), plotArea);
-    if (outdated.has("strokes")) drawStrokes(elements.strokes, model.get("strokes"), plotArea);
-    if (outdated.has("marks")) drawMarks(elements.marks, model.get("marks"), plotArea);
+    if (!isHeld) this.drawParts(outdated);
     if (outdated.has("cursors")) this.drawCursors();
+  }
+  /** @param {Set<Part>} outdated */
+  drawParts(outdated) {
+    const { model, plotArea, elements, live } = this;
+    if (outdated.has("axes")) this.drawAxes();
+    if (outdated.has("picture")) live.drawPicture(plotArea);
+    if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
+    if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
+    if (outdated.has("marks")) drawMarks(elements.marks, live.placedMarks(model.get("marks")), plotArea);
+  }
+  get strokes() {
+    return this.model.get("strokes").map(decodeStroke);
+  }
+  get mesh() {
+    const { vertices, edges } = this.model.get("mesh");
+    if (!vertices || !edges) return this.live.mesh;
+    return { vertices: toNumbers(vertices, Float64Array), edges: toNumbers(edges, Uint32Array) };
   }
   drawAxes() {
     const axes = this.model.get("axes");
@@ -922,7 +1450,12 @@ var LayerView = class {
     const linked = x === void 0 || z === void 0 ? null : this.plotArea.toPixels(x, z);
     drawCross(this.elements.own, this.pointer, this.plotArea);
     drawCross(this.elements.linked, linked, this.plotArea);
-    drawRubberBand(this.elements.band, this.model.get("rubber"), this.pointer ?? linked, this.plotArea);
+    drawRubberBand(
+      this.elements.band,
+      this.live.placedPoints(this.model.get("rubber")),
+      this.pointer ?? linked,
+      this.plotArea
+    );
   }
   /** @param {import("./types.js").Pixel | null} position */
   movePointer(position) {
@@ -934,7 +1467,8 @@ var LayerView = class {
   carryPointer() {
     if (!this.plotArea.isReady) return;
     this.maps ??= this.model.get("chain").map((state) => PiecewiseAffineMap.fromState(state));
-    const carried = this.pointer && carry(this.maps, this.plotArea.toSection(this.pointer));
+    const point = this.pointer && this.plotArea.toSection(this.pointer);
+    const carried = point && (this.live.picture ? this.live.carried(point) : carry(this.maps, point));
     this.model.set("carried", carried ?? {});
   }
   /**
@@ -1009,7 +1543,7 @@ function keepTraitsLocal(model, names) {
 function observe(model, view, throttles) {
   const receive = ({ kind, to }) => kind === "answer" && throttles[to]?.answer();
   const handlers = [
-    ...Object.entries(PARTS_BY_TRAIT).map(
+    ...Object.entries(PARTS_BY_TRAIT2).map(
       ([trait, parts]) => (
         /** @type {[string, () => void]} */
         [`change:${trait}`, () => view.requestDraw(parts)]
@@ -1051,6 +1585,7 @@ function render({ model, el }) {
     controller.abort();
     observer.disconnect();
     clearTimeout(view.restTimer);
+    view.live.stop();
     stopObserving();
     stopKeepingKeys();
   };

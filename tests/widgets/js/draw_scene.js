@@ -2,7 +2,7 @@
 
 import { readFileSync } from "node:fs";
 import { LiveChain } from "../../../seiswidgets/widgets/js/picture/live_chain.js";
-import { drawScene } from "../../../seiswidgets/widgets/js/picture/scene.js";
+import { drawRatios, drawSection } from "../../../seiswidgets/widgets/js/picture/scene.js";
 import { Texture } from "../../../seiswidgets/widgets/js/picture/texture.js";
 import { toNumbers } from "../../../seiswidgets/widgets/js/shared/bytes.js";
 
@@ -35,6 +35,9 @@ const scene = {
 };
 const runs = task.runs ?? 1;
 const start = process.cpuUsage();
-for (let i = 0; i < runs; i++) drawScene(pixels.fill(0), size, scene);
+for (let i = 0; i < runs; i++) {
+  drawSection(pixels.fill(0), size, scene);
+  if (!isRestored) drawRatios(pixels, size, scene);
+}
 if (task.runs) process.stderr.write(`${process.cpuUsage(start).user / runs / 1000} ms\n`);
 process.stdout.write(new Uint8Array(pixels.buffer));

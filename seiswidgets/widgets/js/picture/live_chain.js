@@ -1,12 +1,13 @@
 // The chain of meshes that both panes share, as the kernel sends it, at any time between its stages.
 
 import { PiecewiseAffineMap } from "../maps/piecewise_affine_map.js";
-import { TriangleFinder } from "../maps/triangle_finder.js";
+import { neighbours, TriangleFinder } from "../maps/triangle_finder.js";
 import { toNumbers } from "../shared/bytes.js";
 import { Motion } from "./motion.js";
 
 /** @typedef {import("../maps/triangle_finder.js").Numbers} Numbers */
 /** @typedef {import("../maps/triangle_finder.js").Indices} Indices */
+/** @typedef {import("../maps/piecewise_affine_map.js").Point} Point */
 /** @typedef {{ before: DataView, after: DataView, triangles: DataView, bits: 16 | 32 }} StageState */
 
 /** One step of a restoration: a mesh before and after. Everything is computed when first needed. */
@@ -41,6 +42,11 @@ class Stage {
     return this.cached("finderBefore", () => new TriangleFinder(this.before, this.triangles, this.tolerance));
   }
 
+  /** Each edge once. */
+  get edges() {
+    return this.cached("edges", () => edgesOf(this.triangles));
+  }
+
   get toRestored() {
     return this.cached("toRestored", () => new PiecewiseAffineMap(this.finderBefore, this.after));
   }
@@ -61,8 +67,24 @@ class Stage {
     const motion = this.cached("motion", () => new Motion(this.before, this.after, this.triangles, metres));
     const part = new Stage(this.before, motion.at(share), this.triangles, this.tolerance);
     part.cache.set("finderBefore", this.finderBefore);
+    part.cache.set("edges", this.edges);
     return part;
   }
+}
+
+/**
+ * @param {Indices} triangles
+ */
+function edgesOf(triangles) {
+  const beyond = neighbours(triangles);
+  /** @type {number[]} */
+  const edges = [];
+  for (let i = 0; i < triangles.length; i++) {
+    const first = i - (i % 3);
+    if (beyond[i] > first / 3) continue; // the other triangle has it
+    edges.push(triangles[first + ((i + 1) % 3)], triangles[first + ((i + 2) % 3)]);
+  }
+  return Uint32Array.from(edges);
 }
 
 /** The maps between the present-day section and the restored one, in samples. */
@@ -99,6 +121,26 @@ export class LiveChain {
       this.moment = { time, stages: [...this.stages.slice(0, whole), ...started] };
     }
     return this.moment.stages;
+  }
+
+  /**
+   * Where a point of the restored section is at a time, in samples; null if it has no place.
+   *
+   * @param {Point} point
+   * @param {number} time
+   */
+  placed(point, time) {
+    const stages = this.stagesAt(time);
+    let at = /** @type {Point | null} */ (point);
+    for (let index = this.stages.length - 1; index >= 0 && at; index--) {
+      const { toOriginal } = this.stages[index];
+      const triangle = toOriginal.finder.find(at.x, at.z);
+      if (triangle < 0) return null;
+      const weights = toOriginal.finder.weights(triangle, at.x, at.z);
+      if (index < stages.length) return stages[index].toRestored.carried(triangle, weights);
+      at = toOriginal.carried(triangle, weights);
+    }
+    return at;
   }
 
   /**

@@ -16,24 +16,46 @@ import { Tracer } from "./tracer.js";
  */
 
 /**
- * Draw a scene on transparent pixels.
+ * Draw a pane's section on transparent pixels; the restored one with its area ratios.
  *
  * @param {Uint32Array} pixels
  * @param {{ width: number, height: number }} size
  * @param {Scene} scene
  */
-export function drawScene(pixels, size, { texture, maps, isRestored, window, colours, deformation }) {
-  const [left, right, top, bottom] = window;
+export function drawSection(pixels, size, scene) {
+  const { painter, grid, isTinted } = prepare(pixels, size, scene);
+  if (!scene.isRestored || !scene.maps.length) return drawPresentDay(painter, grid, scene.texture.section);
+  new Tracer(scene.maps, (row, column, count, x, z, dx, dz, logRatio) => {
+    painter.paint(row, column, count, x, z, dx, dz);
+    if (isTinted) painter.tint(row, column, count, -logRatio);
+  }).trace(grid);
+}
+
+/**
+ * Draw the area ratios over a present-day section.
+ *
+ * @param {Uint32Array} pixels
+ * @param {{ width: number, height: number }} size
+ * @param {Scene} scene
+ */
+export function drawRatios(pixels, size, scene) {
+  const { painter, grid, isTinted } = prepare(pixels, size, scene);
+  if (!scene.maps.length || !isTinted) return;
+  new Tracer(scene.maps, (row, column, count, _x, _z, _dx, _dz, logRatio) => {
+    painter.tint(row, column, count, logRatio);
+  }).trace(grid);
+}
+
+/**
+ * @param {Uint32Array} pixels
+ * @param {{ width: number, height: number }} size
+ * @param {Scene} scene
+ */
+function prepare(pixels, size, { texture, window: [left, right, top, bottom], colours, deformation }) {
   const [stepX, stepZ] = [(right - left) / size.width, (bottom - top) / size.height];
   const grid = { left: left + stepX / 2, top: top + stepZ / 2, stepX, stepZ, ...size };
   const painter = new Painter(pixels, size.width, texture.reducedTo(stepX, stepZ), colours, deformation);
-  const isTinted = deformation.opacity > 0;
-  if (!isRestored || !maps.length) drawPresentDay(painter, grid, texture.section);
-  if (!maps.length || (!isRestored && !isTinted)) return;
-  new Tracer(maps, (row, column, count, x, z, dx, dz, logRatio) => {
-    if (isRestored) painter.paint(row, column, count, x, z, dx, dz);
-    if (isTinted) painter.tint(row, column, count, isRestored ? -logRatio : logRatio);
-  }).trace(grid);
+  return { painter, grid, isTinted: deformation.opacity > 0 };
 }
 
 /**

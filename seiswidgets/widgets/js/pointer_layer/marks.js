@@ -11,7 +11,7 @@ const CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 const DRAW = {
   cutoff(group, mark) {
     const disc = append(group, "circle", "disc", { r: 8, fill: mark.colour });
-    togglePale(appendText(group, "number", { y: 3.5 }, mark.text), disc);
+    togglePale(appendText(group, "number", { y: 3.5 }, mark.text), disc, mark.colour);
   },
   held(group, mark) {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });

@@ -1,31 +1,28 @@
 // The edges of a mesh that may be visible, as one path.
 
-import { toNumbers } from "../shared/bytes.js";
-
 const UNITS = 10; // path units per css pixel: integers, since writing 40,000 decimals takes too long
 
 /**
  * @param {SVGPathElement} path
- * @param {Partial<import("./types.js").Mesh>} mesh
+ * @param {{ vertices: Float64Array, edges: Uint32Array } | null} mesh
  * @param {number} opacity
  * @param {import("./plot_area.js").PlotArea} plotArea
  */
-export function drawMesh(path, { vertices, edges }, opacity, plotArea) {
+export function drawMesh(path, mesh, opacity, plotArea) {
   path.setAttribute("transform", `scale(${1 / UNITS})`);
   path.setAttribute("stroke-opacity", String(opacity));
-  path.setAttribute("d", vertices && edges && opacity > 0 ? visibleEdges(vertices, edges, plotArea) : "");
+  path.setAttribute("d", mesh && opacity > 0 ? visibleEdges(mesh.vertices, mesh.edges, plotArea) : "");
 }
 
 /**
  * The d attribute of the edges that are not all on one side of the plot area.
  *
- * @param {DataView} vertices
- * @param {DataView} edges
+ * @param {Float64Array} vertices
+ * @param {Uint32Array} ends
  * @param {import("./plot_area.js").PlotArea} plotArea
  */
-function visibleEdges(vertices, edges, plotArea) {
-  const [xs, ys] = pathCoordinates(toNumbers(vertices, Float64Array), plotArea);
-  const ends = toNumbers(edges, Uint32Array);
+function visibleEdges(vertices, ends, plotArea) {
+  const [xs, ys] = pathCoordinates(vertices, plotArea);
   const [width, height] = [UNITS * plotArea.width, UNITS * plotArea.height];
   let data = "";
   for (let i = 0; i < ends.length; i += 2) {

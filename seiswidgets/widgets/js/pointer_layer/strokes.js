@@ -1,5 +1,6 @@
 // Lines on the section: each with a pale halo, dots at its vertices and a label near its start.
 
+import { toNumbers } from "../shared/bytes.js";
 import { append, appendText, pathData, togglePale } from "../shared/svg.js";
 
 const HALO = 1.5; // css pixels of the halo on either side of a line
@@ -9,6 +10,19 @@ const CAPITAL_HEIGHT = 10; // css pixels
 
 /** @typedef {import("./types.js").Pixel} Pixel */
 /** @typedef {import("./types.js").Stroke} Stroke */
+
+/**
+ * @param {import("./types.js").StrokeState} state
+ * @returns {Stroke}
+ */
+export function decodeStroke({ origin, points, ...look }) {
+  const offsets = toNumbers(points, Float32Array);
+  const decoded = Array.from({ length: offsets.length / 2 }, (_, i) => {
+    const [x, z] = [origin[0] + offsets[2 * i], origin[1] + offsets[2 * i + 1]];
+    return Number.isNaN(x) ? null : /** @type {[number, number]} */ ([x, z]);
+  });
+  return { ...look, points: decoded };
+}
 
 /**
  * @param {SVGGElement} group
@@ -64,10 +78,25 @@ function drawLabel(group, stroke, pixels, plotArea) {
   if (!start) return;
   const label = appendText(group, "name", {}, stroke.label);
   label.style.fill = stroke.colour;
-  togglePale(label, label);
-  const { x, y } = labelPosition(start, label.getComputedTextLength(), plotArea);
+  togglePale(label, label, stroke.colour);
+  const { x, y } = labelPosition(start, lengthOf(label, stroke.label), plotArea);
   label.setAttribute("x", String(x));
   label.setAttribute("y", String(y));
+}
+
+/** @type {Map<string, number>} */
+const lengths = new Map(); // measuring a text makes the browser lay out the page
+
+/**
+ * The length of a label, in css pixels.
+ *
+ * @param {SVGTextElement} label
+ * @param {string} content
+ */
+function lengthOf(label, content) {
+  const length = lengths.get(content) ?? label.getComputedTextLength();
+  if (length > 0) lengths.set(content, length);
+  return length;
 }
 
 /**

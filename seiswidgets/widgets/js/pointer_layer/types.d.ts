@@ -11,6 +11,9 @@ export type Pixel = { x: number; y: number };
 export type Axis = { title: string; pixels: number[]; labels: string[] };
 export type Axes = { x: Axis; z: Axis; left: number; note: string };
 
+/** Points are offsets from the origin, as 32-bit numbers; NaN interrupts the line. */
+export type StrokeState = Omit<Stroke, "points"> & { origin: [number, number]; points: DataView };
+
 export type Stroke = {
   points: ([number, number] | null)[];
   colour: string;
@@ -31,7 +34,7 @@ export type Traits = {
   axes: Partial<Axes>;
   window: number[];
   size: number[];
-  strokes: Stroke[];
+  strokes: StrokeState[];
   marks: Mark[];
   rubber: [number, number][];
   mesh: Partial<Mesh>;
@@ -41,6 +44,8 @@ export type Traits = {
   linked: Partial<SectionPoint>;
   hotkeys: string[];
   label: string;
+  picture: string | null;
+  restored: boolean;
 };
 
 export type Model = AnyModel<Traits>;

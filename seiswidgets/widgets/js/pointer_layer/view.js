@@ -1,21 +1,23 @@
 // One view of a pointer layer: its elements, what they show, and what it sends to the kernel.
 
 import { carry, PiecewiseAffineMap } from "../maps/piecewise_affine_map.js";
+import { toNumbers } from "../shared/bytes.js";
 import { append } from "../shared/svg.js";
 import { drawAxes } from "./axes.js";
 import { drawCross, drawRubberBand } from "./cursors.js";
 import { modifiers } from "./keyboard.js";
+import { LivePane } from "./live_pane.js";
 import { drawMarks } from "./marks.js";
 import { drawMesh } from "./mesh.js";
 import { PlotArea } from "./plot_area.js";
-import { drawStrokes } from "./strokes.js";
+import { decodeStroke, drawStrokes } from "./strokes.js";
 
 const REST = 250; // ms without a wheel step or a drag before the picture may be sharpened
 
-/** @typedef {"axes" | "mesh" | "strokes" | "marks" | "cursors"} Part */
+/** @typedef {"axes" | "picture" | "mesh" | "strokes" | "marks" | "cursors"} Part */
 
 /** @type {Part[]} */
-const ALL_PARTS = ["axes", "mesh", "strokes", "marks", "cursors"];
+const ALL_PARTS = ["axes", "picture", "mesh", "strokes", "marks", "cursors"];
 
 /**
  * The parts that show a trait.
@@ -26,7 +28,7 @@ export const PARTS_BY_TRAIT = {
   axes: ["axes"],
   label: ["axes"],
   size: ["axes"],
-  window: ["mesh", "strokes", "marks", "cursors"],
+  window: ["picture", "mesh", "strokes", "marks", "cursors"],
   strokes: ["strokes"],
   marks: ["marks"],
   mesh: ["mesh"],
@@ -66,8 +68,10 @@ export class LayerView {
     this.pointer = null; // null while it is elsewhere
     /** @type {PiecewiseAffineMap[] | null} */
     this.maps = null; // of the chain, built when first needed
+    this.live = new LivePane(model, el, (parts) => this.requestDraw(parts));
     /** @type {Set<Part>} */
     this.outdated = new Set();
+    this.isScheduled = false;
     this.hasReported = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.restTimer = undefined;
@@ -79,19 +83,43 @@ export class LayerView {
    * @param {Part[]} parts
    */
   requestDraw(parts) {
-    if (!this.outdated.size) requestAnimationFrame(() => this.draw());
     for (const part of parts) this.outdated.add(part);
+    if (this.isScheduled || !this.outdated.size) return;
+    this.isScheduled = true;
+    requestAnimationFrame(() => {
+      this.isScheduled = false;
+      this.draw();
+    });
   }
 
+  /** Draw everything outdated at once; while the kernel is changing several things, only what follows the pointer. */
   draw() {
-    const { model, plotArea, elements, outdated } = this;
-    this.outdated = new Set();
+    const { plotArea, outdated } = this;
+    const isHeld = this.live.isHeld;
+    this.outdated = new Set(isHeld ? [...outdated].filter((part) => part !== "cursors") : []);
     if (!plotArea.isReady) return;
-    if (outdated.has("axes")) this.drawAxes();
-    if (outdated.has("mesh")) drawMesh(elements.mesh, model.get("mesh"), model.get("mesh_opacity"), plotArea);
-    if (outdated.has("strokes")) drawStrokes(elements.strokes, model.get("strokes"), plotArea);
-    if (outdated.has("marks")) drawMarks(elements.marks, model.get("marks"), plotArea);
+    if (!isHeld) this.drawParts(outdated);
     if (outdated.has("cursors")) this.drawCursors();
+  }
+
+  /** @param {Set<Part>} outdated */
+  drawParts(outdated) {
+    const { model, plotArea, elements, live } = this;
+    if (outdated.has("axes")) this.drawAxes();
+    if (outdated.has("picture")) live.drawPicture(plotArea);
+    if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
+    if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
+    if (outdated.has("marks")) drawMarks(elements.marks, live.placedMarks(model.get("marks")), plotArea);
+  }
+
+  get strokes() {
+    return this.model.get("strokes").map(decodeStroke);
+  }
+
+  get mesh() {
+    const { vertices, edges } = this.model.get("mesh");
+    if (!vertices || !edges) return this.live.mesh;
+    return { vertices: toNumbers(vertices, Float64Array), edges: toNumbers(edges, Uint32Array) };
   }
 
   drawAxes() {
@@ -106,7 +134,12 @@ export class LayerView {
     const linked = x === undefined || z === undefined ? null : this.plotArea.toPixels(x, z);
     drawCross(this.elements.own, this.pointer, this.plotArea);
     drawCross(this.elements.linked, linked, this.plotArea);
-    drawRubberBand(this.elements.band, this.model.get("rubber"), this.pointer ?? linked, this.plotArea);
+    drawRubberBand(
+      this.elements.band,
+      this.live.placedPoints(this.model.get("rubber")),
+      this.pointer ?? linked,
+      this.plotArea,
+    );
   }
 
   /** @param {import("./types.js").Pixel | null} position */
@@ -120,7 +153,8 @@ export class LayerView {
   carryPointer() {
     if (!this.plotArea.isReady) return;
     this.maps ??= this.model.get("chain").map((state) => PiecewiseAffineMap.fromState(state));
-    const carried = this.pointer && carry(this.maps, this.plotArea.toSection(this.pointer));
+    const point = this.pointer && this.plotArea.toSection(this.pointer);
+    const carried = point && (this.live.picture ? this.live.carried(point) : carry(this.maps, point));
     this.model.set("carried", carried ?? {});
   }
 

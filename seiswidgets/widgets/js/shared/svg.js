@@ -38,15 +38,24 @@ export function appendText(parent, className, attributes, content) {
   return text;
 }
 
+/** @type {Map<string, boolean>} */
+const paleColours = new Map(); // asking the browser for a style costs milliseconds while something is dragged
+
 /**
  * Set the class "pale" on a text if white would be hard to see beside an element's fill colour.
  *
  * @param {Element} text
  * @param {Element} coloured
+ * @param {string} colour that the element is filled with
  */
-export function togglePale(text, coloured) {
-  const [red, green, blue] = (getComputedStyle(coloured).fill.match(/\d+/g) ?? [0, 0, 0]).map(Number);
-  text.classList.toggle("pale", 0.299 * red + 0.587 * green + 0.114 * blue > PALE);
+export function togglePale(text, coloured, colour) {
+  let isPale = paleColours.get(colour);
+  if (isPale === undefined) {
+    const [red, green, blue] = (getComputedStyle(coloured).fill.match(/\d+/g) ?? [0, 0, 0]).map(Number);
+    isPale = 0.299 * red + 0.587 * green + 0.114 * blue > PALE;
+    paleColours.set(colour, isPale);
+  }
+  text.classList.toggle("pale", isPale);
 }
 
 /**
