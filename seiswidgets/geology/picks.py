@@ -18,6 +18,7 @@ USES = CONSTRAIN, CARRY, IGNORE = "constrain", "carry", "ignore"
 MISSING = "missing"  # kind of the errors about picks that a step names and that do not exist
 AUTO, TIP, EXTEND = "auto", "tip", "extend"  # what happens to an end of a fault
 Ends = tuple[str, str]  # for the first and the last point of a fault
+AUTO_ENDS: Ends = (AUTO, AUTO)
 SEGMENTS_AT_ONCE = 64  # of a line, tested together for one that meets an earlier one
 
 
@@ -169,14 +170,14 @@ Problem = tuple[str, str, int, str]  # kind and name of a pick, index of the pie
 
 
 def usable(
-    drawn: Iterable[tuple[str, str, Sequence[ArrayLike], str]],
+    drawn: Iterable[tuple[str, str, Sequence[ArrayLike], str, Ends]],
 ) -> tuple[Interpretation, tuple[Problem, ...]]:
     """Make an interpretation of drawn lines, without those that are none, and list the problems of lines.
 
     Parameters
     ----------
-    drawn : iterable of (kind, name, pieces, use)
-        "fault" or "horizon", its name, lists of points (x, z), one list for a fault, and its use.
+    drawn : iterable of (kind, name, pieces, use, ends)
+        "fault" or "horizon", its name, lists of points (x, z), one list for a fault, its use, and a fault's ends.
 
     Returns
     -------
@@ -188,7 +189,7 @@ def usable(
     faults: list[Fault] = []
     horizons: list[Horizon] = []
     problems: list[Problem] = []
-    for kind, name, pieces, use in drawn:
+    for kind, name, pieces, use, ends in drawn:
         good: list[np.ndarray] = []
         for index, piece in enumerate(pieces):
             what = f"fault {name!r}" if kind == FAULT else f"piece {index + 1} of horizon {name!r}"
@@ -200,7 +201,7 @@ def usable(
             if flaw:
                 problems.append((kind, name, index, str(flaw)))
         if good and kind == FAULT:
-            faults.append(Fault(good[0], name, use=use))
+            faults.append(Fault(good[0], name, ends=ends, use=use))
         elif good:
             horizons.append(Horizon(*good, name=name, use=use))
     return Interpretation(faults, horizons), tuple(problems)

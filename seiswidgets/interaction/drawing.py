@@ -11,7 +11,20 @@ from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology.pick_colours import COLOURS
-from seiswidgets.geology.picks import CONSTRAIN, FAULT, HORIZON, Interpretation, check_use, usable
+from seiswidgets.geology.picks import (
+    AUTO,
+    AUTO_ENDS,
+    CONSTRAIN,
+    FAULT,
+    HORIZON,
+    Ends,
+    Fault,
+    Horizon,
+    Interpretation,
+    both_ends,
+    check_use,
+    usable,
+)
 from seiswidgets.geology.section import Section
 
 LETTERS = {FAULT: "F", HORIZON: "H"}
@@ -36,6 +49,8 @@ class Pick:
         Hidden picks take part in the restoration all the same.
     use : {"constrain", "carry", "ignore"}
         See `Fault` and `Horizon`.
+    ends : pair of {"auto", "tip", "extend"}
+        See `Fault`.
     """
 
     kind: str
@@ -44,6 +59,7 @@ class Pick:
     colour: str
     visible: bool = True
     use: str = CONSTRAIN
+    ends: Ends = AUTO_ENDS
 
 
 @dataclass(frozen=True)
@@ -217,11 +233,12 @@ class Drawing:
         """Replace the picks by those of an interpretation; picks of the same name keep their looks."""
         looks = {(pick.kind, pick.name): (pick.colour, pick.visible) for pick in self.picks}
         drawing = replace(self, picks=())
-        faults = [(FAULT, fault.name, (fault.points,), fault.use) for fault in interpretation.faults]
-        horizons = [(HORIZON, horizon.name, horizon.pieces, horizon.use) for horizon in interpretation.horizons]
-        for kind, name, pieces, use in (*faults, *horizons):
-            colour, visible = looks.get((kind, name), (None, True))
-            drawing = drawing.with_pick(kind, name, pieces, colour, visible, use)
+        picks: list[Fault | Horizon] = [*interpretation.faults, *interpretation.horizons]
+        for pick in picks:
+            kind = FAULT if isinstance(pick, Fault) else HORIZON
+            pieces, ends = ((pick.points,), pick.ends) if isinstance(pick, Fault) else (pick.pieces, AUTO)
+            colour, visible = looks.get((kind, pick.name), (None, True))
+            drawing = drawing.with_pick(kind, pick.name, pieces, colour, visible, pick.use, ends)
         return drawing
 
     def with_pick(
@@ -232,9 +249,11 @@ class Drawing:
         colour: str | None = None,
         visible: bool = True,
         use: str = CONSTRAIN,
+        ends: str | Ends = AUTO,
     ) -> "Drawing":
         """Add a pick, in a colour of its own if none is given."""
-        new = Pick(kind, name, tuple(map(_points, pieces)), colour or self._free_colour(kind), visible, use)
+        points, colour = tuple(map(_points, pieces)), colour or self._free_colour(kind)
+        new = Pick(kind, name, points, colour, visible, use, both_ends(ends))
         return replace(self, picks=(*self.picks, new))
 
     def lies_on(self, section: Section) -> bool:
@@ -264,7 +283,7 @@ class Drawing:
 
     @property
     def _checked(self) -> tuple[Interpretation, tuple[tuple[str, str, int, str], ...]]:
-        return _usable(tuple((pick.kind, pick.name, pick.pieces, pick.use) for pick in self.picks))
+        return _usable(tuple((pick.kind, pick.name, pick.pieces, pick.use, pick.ends) for pick in self.picks))
 
     def _with_vertices(self, target: PickSelection, inserted: Sequence[Sequence[float]], removed: int) -> "Drawing":
         """Replace some vertices from the target on by others."""

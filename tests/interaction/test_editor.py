@@ -128,6 +128,13 @@ def test_the_ends_of_a_fault_snap_to_the_border_and_to_other_faults(drawn):
     assert pieces(drawn, "F2")[0] == ((300.0, 7.0), (390.0, 9.0), (457.0, 300.0))
 
 
+def test_the_ends_of_a_loaded_fault_are_kept_through_edits(editor):
+    editor.load(sw.Interpretation([sw.Fault(FAULT, "F1", ends=("auto", "tip"))]))
+    editor.enter("fault")
+    drag(editor, FAULT[1], (430.0, 300.0))
+    assert editor.interpretation.fault("F1").ends == ("auto", "tip")
+
+
 def test_the_end_of_a_fault_snaps_while_it_is_dragged_unless_shift_is_held(drawn):
     drawn.enter("fault")
     drag(drawn, FAULT[0], (420.0, 60.0), (420.0, 6.0))

@@ -128,6 +128,18 @@ def test_lines_that_cannot_be_used_are_kept_and_told_of(session, tmp_path):
     ]
 
 
+def test_the_ends_of_faults_are_kept(session, tmp_path):
+    drawn = replace(session, faults=(replace(session.faults[0], ends=("tip", "extend")), *session.faults[1:]))
+    drawn.save(tmp_path / "session.json")
+    assert sw.open_session(tmp_path / "session.json") == drawn
+    assert drawn.interpretation.faults[0].ends == ("tip", "extend")
+    text = (tmp_path / "session.json").read_text()
+    for worse, message in (('"bend"', "ends must be 'auto', 'tip' or 'extend'"), ('"tip", "tip"', "two texts")):
+        (tmp_path / "worse.json").write_text(text.replace('"tip"', worse))
+        with pytest.raises(DataError, match=rf"picks.faults\[0\].*{message}"):
+            sw.open_session(tmp_path / "worse.json")
+
+
 def test_the_use_of_picks_is_kept_and_older_files_have_none(session, tmp_path):
     drawn = replace(session, horizons=(replace(session.horizons[0], use="carry"), *session.horizons[1:]))
     drawn.save(tmp_path / "session.json")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError, Text
-from seiswidgets.geology.picks import CONSTRAIN
+from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.weights import Weights
 from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
@@ -90,7 +90,8 @@ def _folder(path: Path) -> Path:
 
 
 def _style(pick: SavedPick) -> dict[str, object]:
-    return {"colour": pick.colour, "visible": pick.visible, "use": pick.use}
+    style: dict[str, object] = {"colour": pick.colour, "visible": pick.visible, "use": pick.use}
+    return style if pick.ends == AUTO_ENDS else {**style, "ends": pick.ends}
 
 
 def read_session_fields(path: Path, allow_outside: bool) -> SessionFields:
@@ -199,8 +200,16 @@ def _picks(entry: Entry, read_pieces: Callable[[Entry], tuple[Points, ...]]) -> 
             raise item["name"].error("a name that no other pick has")
         colour, visible = item.optional("colour", Entry.text, None), item.optional("visible", Entry.flag, True)
         use = item.optional("use", Entry.text, CONSTRAIN)
-        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible, use)
+        ends = item.optional("ends", _ends, AUTO_ENDS)
+        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible, use, ends)
     return tuple(picks.values())
+
+
+def _ends(entry: Entry) -> Ends:
+    ends = [end.text() for end in entry.items()]
+    if len(ends) != 2:
+        raise entry.error("a list of two texts")
+    return ends[0], ends[1]
 
 
 def _plan(entry: Entry) -> Plan:

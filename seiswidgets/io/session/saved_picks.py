@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seiswidgets.errors import PickError, SettingError
-from seiswidgets.geology.picks import CONSTRAIN, Fault, Horizon, check_use
+from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends, Fault, Horizon, both_ends, check_use
 from seiswidgets.io.document import Points
 
 COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")  # nothing else may get into a page
@@ -27,13 +27,15 @@ class SavedPick:
         Hidden picks are used in the restoration all the same.
     use : {"constrain", "carry", "ignore"}
         See `Fault` and `Horizon`.
+    ends : pair of {"auto", "tip", "extend"}
+        See `Fault`.
 
     Raises
     ------
     PickError
         If the name contains an unpaired surrogate.
     SettingError
-        If the colour or the use is invalid.
+        If the colour, the use or the ends are invalid.
     """
 
     name: str
@@ -41,6 +43,7 @@ class SavedPick:
     colour: str | None = None
     visible: bool = True
     use: str = CONSTRAIN
+    ends: Ends = AUTO_ENDS
 
     def __post_init__(self) -> None:
         if any("\ud800" <= letter <= "\udfff" for letter in self.name):
@@ -51,6 +54,7 @@ class SavedPick:
                 pick=self.name,
             )
         check_use(self.name, self.use)
+        object.__setattr__(self, "ends", both_ends(self.ends))
 
 
 def saved_pick(pick: Fault | Horizon, style: Mapping[str, Any] | None = None) -> SavedPick:
@@ -61,7 +65,6 @@ def saved_pick(pick: Fault | Horizon, style: Mapping[str, Any] | None = None) ->
             f"the looks of {pick.name!r} may be colour and visible, but not {', '.join(map(str, unknown))}",
             pick=pick.name,
         )
-    pieces = (pick.points,) if isinstance(pick, Fault) else pick.pieces
-    return SavedPick(
-        pick.name, tuple(tuple((x, z) for x, z in piece.tolist()) for piece in pieces), **style, use=pick.use
-    )
+    pieces, ends = ((pick.points,), both_ends(pick.ends)) if isinstance(pick, Fault) else (pick.pieces, AUTO_ENDS)
+    points = tuple(tuple((x, z) for x, z in piece.tolist()) for piece in pieces)
+    return SavedPick(pick.name, points, **style, use=pick.use, ends=ends)

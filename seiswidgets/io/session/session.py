@@ -150,7 +150,7 @@ class Session:
 
     def _usable_picks(self) -> tuple[Interpretation, tuple]:
         kinds = ((FAULT, self.faults), (HORIZON, self.horizons))
-        return usable((kind, pick.name, pick.pieces, pick.use) for kind, picks in kinds for pick in picks)
+        return usable((kind, pick.name, pick.pieces, pick.use, pick.ends) for kind, picks in kinds for pick in picks)
 
     def open_section(self, *, allow_changed: bool = False) -> Section:
         """Open the section from its source.

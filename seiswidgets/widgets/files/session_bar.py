@@ -336,7 +336,7 @@ def session_of(document: Document, source: SectionSource, sha256: str) -> Sessio
 
 def _saved_picks(drawing: Drawing, kind: str) -> tuple[SavedPick, ...]:
     picks = (pick for pick in drawing.picks if pick.kind == kind)
-    return tuple(SavedPick(pick.name, pick.pieces, pick.colour, pick.visible, pick.use) for pick in picks)
+    return tuple(SavedPick(pick.name, pick.pieces, pick.colour, pick.visible, pick.use, pick.ends) for pick in picks)
 
 
 def drawing_of(session: Session) -> Drawing:
@@ -344,5 +344,5 @@ def drawing_of(session: Session) -> Drawing:
     drawing = Drawing()
     for kind, picks in ((FAULT, session.faults), (HORIZON, session.horizons)):
         for pick in picks:
-            drawing = drawing.with_pick(kind, pick.name, pick.pieces, pick.colour, pick.visible, pick.use)
+            drawing = drawing.with_pick(kind, pick.name, pick.pieces, pick.colour, pick.visible, pick.use, pick.ends)
     return drawing
