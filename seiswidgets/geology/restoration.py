@@ -13,6 +13,7 @@ from shapely import LineString
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.clipping import CLIPPED, clip_findings
+from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage, mesh_bed
@@ -203,9 +204,11 @@ class Restoration:
         return made, (*self._notes(picks), *map(carried_finding, refusals))
 
     def _notes(self, picks: Sequence[Fault | Horizon]) -> tuple[Finding, ...]:
-        """Notes about picks that are clipped, or that can only be carried."""
+        """Notes about picks that are clipped, cross each other, or can only be carried."""
         flawed = [self._brought_here(carried_finding(flaw)) for flaw in flaws(picks)]
-        return (*self._clipped(*(pick for pick in picks if pick.constrains)), *flawed)
+        horizons = [pick for pick in picks if isinstance(pick, Horizon)]
+        crossed = map(self._brought_here, crossing_findings(self.original, horizons))
+        return (*self._clipped(*(pick for pick in picks if pick.constrains)), *flawed, *crossed)
 
     def _with_stage(self, stage: Stage, notes: Sequence[Finding]) -> "Restoration":
         return replace(self, stages=(*self.stages, stage.with_notes(*notes)))

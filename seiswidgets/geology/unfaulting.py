@@ -296,12 +296,14 @@ def free_vertices(mesh: Mesh, fixed: np.ndarray | None, domain: RestorationDomai
     if triangle < 0:
         raise PickError(
             f"no rock lies at fixed, {domain.where(fixed)}; choose a point inside the block to hold",
+            kind="held outside",
             where=domain.position(fixed),
         )
     if mesh.blocks.max() == 0:
         raise PickError(
             "fixed is given, but the faults cut no block off: all of them end inside the section; leave out ",
             Keyword("fixed"),
+            kind="nothing to hold",
             where=domain.position(fixed),
         )
     return np.asarray(mesh.blocks != mesh.blocks[mesh.triangles[triangle, 0]])

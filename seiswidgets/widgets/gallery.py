@@ -88,7 +88,8 @@ class Gallery(WithParts, VBox):
         super().__init__([KeyGuard(), self._make_head()], **settings)
         keep_order(self)
         bind_control(self, "choice", self.chooser)
-        bind_control(self, "with_picks", self.picks_box)
+        self.picks_box.observe(self._take_picks_box, "value")
+        self.observe(lambda change: self._show_picks_box(), "with_picks")
         self._open()
         self.observe(self._take_choice, ("choice", "with_picks"))
         self.storage.observe(self._take_found, "found")
@@ -145,6 +146,15 @@ class Gallery(WithParts, VBox):
         if self.app is None or self._name != self._chosen_name():
             self._open()
 
+    def _show_picks_box(self) -> None:
+        """Show whether the section comes with picks: off where there are none, whatever is wanted of others."""
+        self.picks_box.disabled = not self.exhibit.has_picks
+        self.picks_box.value = self.with_picks and self.exhibit.has_picks
+
+    def _take_picks_box(self, change: Bunch) -> None:
+        if self.exhibit.has_picks:
+            self.with_picks = change.new
+
     def _chosen_name(self) -> str:
         """Name under which the work on the chosen section is kept."""
         return f"{self.choice}, with picks" if self.with_picks and self.exhibit.has_picks else self.choice
@@ -154,7 +164,8 @@ class Gallery(WithParts, VBox):
             self._leave()
         except DataError as error:  # the session cannot be saved; the gallery keeps the work all the same
             self._warn(str(error))
-        self.picks_box.disabled, self.start_over_button.disabled = not self.exhibit.has_picks, True
+        self._show_picks_box()
+        self.start_over_button.disabled = True
         self._show_caption(HINT, LOADING)
         try:
             loaded = self.exhibit.load()

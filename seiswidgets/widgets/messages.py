@@ -7,13 +7,19 @@ from seiswidgets.errors import SeiswidgetsError
 TROUBLE = '<div role="alert" style="color: var(--jp-error-color1, #b71c1c); line-height: 1.4">{}</div>'
 HINT = '<div role="status" style="color: var(--jp-ui-font-color2, #616161); line-height: 1.4">{}</div>'
 
+IN_THE_APP = {  # by the kind of an error
+    "nothing to hold": "Hold: no block is cut off, since every fault ends inside the section. Click the pin to remove "
+    "it; both sides of each fault move then.",
+    "held outside": "Hold: the pin lies outside the rock. Click it to remove it, then click inside the block to hold.",
+}
+
 _log = logging.getLogger(__name__)
 
 
 def in_words(error: Exception) -> str:
     """Message of an error; an error that is not a `SeiswidgetsError` is a bug, and is logged too."""
     if isinstance(error, SeiswidgetsError):
-        return error.text
+        return IN_THE_APP.get(error.kind, error.text)
     log_error(error)
     return f"this should not have happened: {type(error).__name__}: {error}"
 

@@ -18,6 +18,7 @@ TITLES = {
     "fault end": "fault end",
     "bed length": "bed length changed",
     "datum": "off its datum",
+    "crossing": "horizons cross",
 }
 
 

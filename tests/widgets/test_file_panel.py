@@ -180,6 +180,21 @@ def test_doubtful_headers_are_said_before_opening(app, tmp_path):
     assert opener.fields.fields["dx"].placeholder == "25, as in the file"
 
 
+def test_numbers_that_are_typed_follow_their_unit(app, tmp_path):
+    np.save(tmp_path / "matrix.npy", np.zeros((11, 21)))
+    opener = app.files.section
+    opener.file.text.value = str(tmp_path / "matrix.npy")
+    assert opener.wait(LONG)
+    fields = opener.fields.fields
+    fields["z_max"].value, fields["x_max"].value, fields["x_min"].value = "4000", "1500", ""
+    fields["z_unit"].value, fields["x_unit"].value = "s", "km"
+    assert [fields[name].value for name in ("z_max", "x_max", "x_min")] == ["4", "1.5", ""]
+    assert fields["velocity"].value == "2000"
+    fields["z_unit"].value = "ft"
+    fields["z_unit"].value = "m"
+    assert float(fields["z_max"].value) == pytest.approx(4000 * 0.3048, rel=1e-9)
+
+
 def test_a_matrix_takes_the_places_of_its_corners(app, tmp_path):
     np.save(tmp_path / "matrix.npy", np.random.default_rng(0).normal(size=(11, 21)))
     opener = load(app, tmp_path / "matrix.npy", z_unit="m", x_min="100", z_max="50")

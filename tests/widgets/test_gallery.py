@@ -77,3 +77,16 @@ def test_a_reader_without_a_kernel_sees_the_apps_picture(gallery):
     assert bundle["image/png"] == gallery.app._repr_mimebundle_()["image/png"]
     view = bundle["application/vnd.jupyter.widget-view+json"]
     assert view["model_id"] == gallery.model_id
+
+
+def test_the_box_of_an_interpreters_picks_is_off_where_there_are_none(gallery):
+    gallery.with_picks = True
+    assert gallery.picks_box.value
+    gallery.choice = "f3"
+    assert gallery.picks_box.disabled
+    assert not gallery.picks_box.value
+    gallery.choice = "graben"
+    assert gallery.picks_box.value
+    assert not gallery.picks_box.disabled
+    gallery.picks_box.value = False
+    assert not gallery.with_picks

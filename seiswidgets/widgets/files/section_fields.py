@@ -1,10 +1,12 @@
 """Fields for the properties of a section that its file does not state."""
 
+import contextlib
 from collections.abc import Sequence
 from html import escape
 from typing import Any
 
 from ipywidgets import HTML, Dropdown, Layout, Text, VBox, Widget
+from traitlets import Bunch
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
@@ -138,7 +140,16 @@ class SectionFields(VBox):
         self._add_choice("x_unit", "unit of x", list(METRES))
         self.fields["x_unit"].value = info.x_unit or "m"
         for name in ("z_unit", "x_unit"):
-            self.fields[name].observe(lambda change: self._update_units(), "value")
+            self.fields[name].observe(self._take_unit, "value")
+
+    def _take_unit(self, change: Bunch) -> None:
+        """Convert the numbers typed to the unit that was chosen."""
+        is_x = change.owner is self.fields["x_unit"]
+        scale = _factor(change.old, change.new)
+        for name in self.fields.keys() & {*(OF_X if is_x else OF_Z)}:
+            with contextlib.suppress(ValueError):  # empty, or not a number yet
+                self.fields[name].value = f"{float(self.fields[name].value) * scale:.12g}"
+        self._update_units()
 
     def _add_extent(self, info: SectionInfo) -> None:
         samples, traces = info.shape
@@ -190,6 +201,14 @@ class SectionFields(VBox):
 
     def _add_choice(self, name: str, label: str, options: Sequence) -> None:
         self.fields[name] = Dropdown(options=options, description=label, style=STYLE, layout=Layout(width="auto"))
+
+
+def _factor(old: str, new: str) -> float:
+    """Factor that converts a number to another unit; from time to depth, milliseconds become metres."""
+    for sizes in (SECONDS, METRES):
+        if old in sizes and new in sizes:
+            return sizes[old] / sizes[new]
+    return PER_MS_OR_M[new] / PER_MS_OR_M[old]
 
 
 def _extent(edges: dict[str, float]) -> list[float]:

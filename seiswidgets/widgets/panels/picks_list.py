@@ -111,7 +111,8 @@ class PickRow(VBox):
         self.colour.value, self.use.value = pick.colour, pick.use
         self.visible.icon = "eye" if pick.visible else "eye-slash"
         action = "hide" if pick.visible else "show"
-        self.select.tooltip = f"select this {pick.kind}; the next line drawn becomes a piece of a selected horizon"
+        piece = "; the next line drawn becomes a piece of it" if pick.kind == HORIZON else ""
+        self.select.tooltip = f"select this {pick.kind}{piece}"
         self.visible.tooltip = f"{action} this {pick.kind}; hidden picks are restored too"
         self.name.tooltip = f"name of this {pick.kind}"
         self.use.tooltip = USE_TOOLTIPS[pick.kind]
