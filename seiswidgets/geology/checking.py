@@ -1,15 +1,12 @@
 """Checks of picks and a plan before anything is solved: all findings at once."""
 
-from collections.abc import Iterator, Sequence
-from itertools import combinations
-
-import numpy as np
-import shapely
+from collections.abc import Sequence
 
 from seiswidgets.errors import PickError, SeiswidgetsError
+from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.observations import observe_picks
-from seiswidgets.geology.picks import Horizon, Interpretation
+from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob, Step
 from seiswidgets.geology.restoration import Beds, EndsOfFaults, Lines, Restoration
 from seiswidgets.geology.section import Section
@@ -40,7 +37,7 @@ def check(section: Section, interpretation: Interpretation, plan: Plan | None = 
     """
     checked_kind(interpretation, Interpretation, "interpretation")
     job = RestorationJob(section, interpretation, plan or Plan())
-    found = [*_crossing(section, [bed for bed in interpretation.horizons if bed.constrains])]
+    found = crossing_findings(section, [bed for bed in interpretation.horizons if bed.constrains])
     try:
         start = Restoration(section, job.plan.spacing)
         for step in job.steps:
@@ -76,16 +73,3 @@ def _check_unfaulting(start: Restoration, job: RestorationJob, step: Step) -> Se
 
 def _refusal(error: SeiswidgetsError) -> Finding:
     return Finding("problem", error.kind or "refused", error.text, error.pick, error.where)
-
-
-def _crossing(section: Section, horizons: Sequence[Horizon]) -> Iterator[Finding]:
-    """A finding for each pair of horizons that cross."""
-    lines = [shapely.MultiLineString(list(bed.pieces)) for bed in horizons]
-    for (bed, line), (other, second) in combinations(zip(horizons, lines, strict=True), 2):
-        if line.crosses(second):
-            x, z = np.array(line.intersection(second).representative_point().coords[0]).tolist()
-            text = (
-                f"horizon {other.name!r} crosses horizon {bed.name!r} near {section.where((x, z))}, which beds do not; "
-                "end one of them there, or let it only be carried"
-            )
-            yield Finding("warning", "crossing", text, other.name, (x, z))

@@ -25,10 +25,10 @@ def crossing_findings(section: Section, horizons: Iterable[Horizon]) -> list[Fin
         if points:
             x, z = section.from_rock(points[0].coords[0]).tolist()
             text = (
-                f"horizons {name} and {other} cross near {section.where((x, z))}; beds do not: correct one of them, or "
-                "end the older one there"
+                f"horizon {other!r} crosses horizon {name!r} near {section.where((x, z))}, which beds do not; end one "
+                "of them there, or let it only be carried"
             )
-            findings.append(Finding("warning", "crossing", text, name, (x, z)))
+            findings.append(Finding("warning", "crossing", text, other, (x, z)))
     return findings
 
 

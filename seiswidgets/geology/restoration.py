@@ -206,7 +206,7 @@ class Restoration:
     def _notes(self, picks: Sequence[Fault | Horizon]) -> tuple[Finding, ...]:
         """Notes about picks that are clipped, cross each other, or can only be carried."""
         flawed = [self._brought_here(carried_finding(flaw)) for flaw in flaws(picks)]
-        horizons = [pick for pick in picks if isinstance(pick, Horizon)]
+        horizons = [pick for pick in picks if isinstance(pick, Horizon) and pick.constrains]
         crossed = map(self._brought_here, crossing_findings(self.original, horizons))
         return (*self._clipped(*(pick for pick in picks if pick.constrains)), *flawed, *crossed)
 

@@ -19,7 +19,7 @@ class PointerMessage:
     kind : str
         "size" (each view sends it when it appears, with ``fresh``, and when its size changes), "press", "drag",
         "release", "hover", "leave", "double", "wheel", "pinch", "rest" (a moment after the last wheel step or drag),
-        or "key".
+        "key", or "finding" (a click on a flag, ``key`` being its index among the flags).
     x, y : float
         Position in css pixels of the plot area, as the kernel knows its size; for a pinch, midway between the fingers.
     modifiers : frozenset of {"ctrl", "meta", "shift", "alt"}

@@ -11,7 +11,7 @@ from seiswidgets.core.point_location import TOLERANCE
 from seiswidgets.errors import SettingError
 from seiswidgets.interaction.viewport import Window, checked_window
 
-MARK_KINDS = ("cutoff", "held", "cursor")
+MARK_KINDS = ("cutoff", "held", "cursor", "finding")
 State = dict[str, Any]  # as JSON
 
 
@@ -75,18 +75,21 @@ class Mark:
     ----------
     point : tuple (x, z)
         In the section's units; where it is NaN, the mark is not shown.
-    kind : {"cutoff", "held", "cursor"}
-        A disc with a number, a pin, and the cross of the keyboard cursor.
+    kind : {"cutoff", "held", "cursor", "finding"}
+        A disc with a number, a pin, the cross of the keyboard cursor, and a flag that can be clicked.
     text : str
-        Number on the disc.
+        Number on the disc; tooltip of the flag.
     colour : str
         A CSS colour.
+    path : str
+        SVG path of the icon on a flag, in a square of 16 units.
     """
 
     point: tuple[float, float]
     kind: str
     text: str = ""
     colour: str = "#212121"
+    path: str = ""
 
     def __post_init__(self) -> None:
         if self.kind not in MARK_KINDS:
@@ -95,7 +98,7 @@ class Mark:
     def state(self) -> State:
         """Convert to the JSON that the pointer layer draws."""
         x, z = (float(value) for value in self.point)
-        return {"x": x, "z": z, "kind": self.kind, "text": self.text, "colour": self.colour}
+        return {"x": x, "z": z, "kind": self.kind, "text": self.text, "colour": self.colour, "path": self.path}
 
 
 @dataclass(frozen=True, eq=False)

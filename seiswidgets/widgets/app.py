@@ -12,6 +12,7 @@ from ipywidgets import GridBox, Layout, Tab, VBox, Widget
 from traitlets import Bool, Bunch, Instance, Tuple, dlink, link, validate
 
 from seiswidgets.geology import validation
+from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
@@ -259,6 +260,7 @@ class RestorationApp(WithParts, VBox):
             link((self.histogram, name), (self.panes, name))
         workspace.observe(lambda change: self.reports.show(change.new), "restoration")
         self.panes.on_reading(self._mark)
+        self.picker.on_finding(self._open_finding)
 
     @validate("interpretation")
     def _valid_interpretation(self, proposal: Bunch) -> Interpretation:
@@ -269,6 +271,11 @@ class RestorationApp(WithParts, VBox):
 
     def _change_steps(self, steps: tuple) -> None:
         self.workspace.change_plan("steps", steps=steps)
+
+    def _open_finding(self, finding: Finding) -> None:
+        """Show a finding in the status line, and its pick in the list."""
+        self.status.tell(finding)
+        self.tabs.selected_index = 0
 
     def _mark(self, reading: Reading | None) -> None:
         ratio = reading.ratio if reading else np.nan

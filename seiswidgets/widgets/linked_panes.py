@@ -26,6 +26,7 @@ from seiswidgets.widgets.snapshot import Snapshot
 from seiswidgets.widgets.verdict import Verdict
 
 PRESENT_DAY, RESTORED, NOT_RESTORED = "Present day", "Restored", "Not restored yet"
+UNFINISHED = "drawing unfinished"
 SLACK = 0.005  # share of the window by which rock may reach beyond the frame before the frame grows
 READOUT = (
     '<div style="font-variant-numeric: tabular-nums; min-height: 1.4em; line-height: 1.4; white-space: nowrap; '
@@ -219,6 +220,8 @@ class LinkedPanes(WithParts, VBox):
         """Mark the restored pane if the result has a problem or a warning."""
         if verdict is None or verdict.is_good:
             self.restored.badge.hide()
+        elif verdict.is_incomplete:
+            self.restored.badge.show("note", UNFINISHED)
         else:
             self.restored.badge.show(verdict.severity, verdict.title)
 

@@ -10,20 +10,19 @@ from seiswidgets.geology.checking import check
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.interaction.document import Document
+from seiswidgets.interaction.hints import next_step
 from seiswidgets.widgets.histogram import DeformationHistogram
-from seiswidgets.widgets.linked_panes import LinkedPanes
-from seiswidgets.widgets.messages import in_words
+from seiswidgets.widgets.linked_panes import UNFINISHED, LinkedPanes
+from seiswidgets.widgets.messages import IN_THE_APP, in_words
 from seiswidgets.widgets.picker import Picker
 from seiswidgets.widgets.restorer import REST, Restorer
 from seiswidgets.widgets.snapshot import Snapshot
 from seiswidgets.widgets.status_bar import StatusBar
 from seiswidgets.widgets.timeline import Timeline
-from seiswidgets.widgets.verdict import Verdict
+from seiswidgets.widgets.verdict import INCOMPLETE, Verdict
 
-DRAW_FAULT = (
-    "Draw a fault: choose Fault, click along it, double click to finish. Then draw a horizon on both sides of it."
-)
-DRAW_HORIZON = "Now choose Horizon and draw one on both sides of the fault; a double click finishes each piece."
+NO_STEP = "Nothing is restored: the tab Steps has no step that is switched on and has something to work on."
+REFUSED = "not restored"
 OUTDATED = "The section has not been restored since the last change: press Restore."
 
 
@@ -144,7 +143,7 @@ class LiveRestoration:
         self._restorer.cancel()
         restoration = Restoration(self._workspace.section)
         self._draw(Snapshot.of(restoration), restoration)
-        self._status.hint(DRAW_HORIZON if lacks_horizon else DRAW_FAULT)
+        self._status.hint(self._next_step() or NO_STEP)
         return False
 
     def _draw(self, snapshot: Snapshot, restoration: Restoration | None) -> None:
@@ -153,7 +152,7 @@ class LiveRestoration:
         with self._panes.picture.one_frame():
             self._panes.show(snapshot, follow=self._is_unedited)
             self._picker.redraw()
-        self._picker.show_findings(verdict.findings if verdict else ())
+        self._picker.show_findings(_softened(verdict))
         self._show_verdict(verdict, is_preview=restoration is None)
         self._set_outdated(False)
         self._histogram.show(snapshot.ratio if snapshot.restoration.stages else [])
@@ -167,7 +166,10 @@ class LiveRestoration:
         return history.next_undo is None or history.next_redo is not None
 
     def _show_verdict(self, verdict: Verdict | None, is_preview: bool) -> None:
-        if verdict is not None:
+        step = self._next_step() if verdict and verdict.is_incomplete else ""
+        if step:
+            self._status.hint(step)
+        elif verdict is not None:
             self._status.judge(verdict)
         elif is_preview:
             self._status.show_busy()  # the full restoration follows
@@ -176,23 +178,29 @@ class LiveRestoration:
 
     def _fail(self, error: Exception) -> None:
         """Show an error: as an alert if the user pressed Restore, as a hint while picks are being drawn."""
-        text = in_words(error)
-        (self._status.alert if self._requested else self._status.hint)(text)
+        step = "" if self._requested else self._next_step()
+        (self._status.alert if self._requested else self._status.hint)(step or in_words(error))
         self._picker.show_findings(self._check(error))
         self._set_outdated(True)
+        self._panes.restored.badge.show("problem" if self._requested else "note", UNFINISHED if step else REFUSED)
+
+    def _next_step(self) -> str:
+        return next_step(self._workspace.interpretation, self._workspace.section)
 
     def _check(self, error: Exception) -> list[Finding]:
         """All findings about the picks, not only the first that has prevented a step; mere notes while drawing."""
         workspace = self._workspace
         if not isinstance(error, SeiswidgetsError):
             return []
-        findings = check(workspace.section, workspace.interpretation, workspace.plan)
+        checked = check(workspace.section, workspace.interpretation, workspace.plan)
+        findings = [replace(finding, text=IN_THE_APP.get(finding.kind, finding.text)) for finding in checked]
         if error.pick not in {finding.pick for finding in findings}:
-            findings.append(Finding("problem", error.kind, error.text, error.pick))
+            findings.append(Finding("problem", error.kind, in_words(error), error.pick, error.where))
         return findings if self._requested else [replace(finding, severity="note") for finding in findings]
 
     def _show_outdated(self) -> None:
         self._set_outdated(True)
+        self._panes.restored.badge.show("note", "out of date")
         self._status.hint(OUTDATED)
 
     def _set_outdated(self, outdated: bool) -> None:
@@ -204,3 +212,11 @@ def _needs_restoration(old: Document, new: Document) -> bool:
     """Return whether a document needs another restoration than an earlier one."""
     same_picks = old.section is new.section and old.drawing.interpretation is new.drawing.interpretation
     return not same_picks or old.plan != new.plan
+
+
+def _softened(verdict: Verdict | None) -> list[Finding]:
+    """Findings of a verdict; those about a drawing in progress are notes."""
+    return [
+        replace(finding, severity="note") if finding.kind in INCOMPLETE else finding
+        for finding in (verdict.findings if verdict else ())
+    ]

@@ -21,6 +21,7 @@ from seiswidgets.interaction.scene import marks, rubber_band, strokes
 from seiswidgets.interaction.snapping import EVENTS, follow_event, snap_to_event
 from seiswidgets.widgets.binding import bind, bind_control
 from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.flags import flags
 from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.key_guard import KeyGuard
@@ -109,6 +110,8 @@ class Picker(WithParts, VBox):
         self._others: list[SectionPane] = []
         self._drawn: dict[SectionPane, tuple[object, ...]] = {}
         self._messages: dict[str, tuple[str, str]] = {}
+        self._findings: tuple[Finding, ...] = ()
+        self._finding_listeners: list[Callable[[Finding], None]] = []
         self.list = PicksList(self.editor, self.refresh)
         self.buttons = {name: self._button(name) for name in ACTIONS}
         self.toolbar = self._make_toolbar()
@@ -140,21 +143,38 @@ class Picker(WithParts, VBox):
             self.borrowed += (pane,)
         pane.take_keys(KEYS)
         pane.on_gesture(lambda gesture: self.comm is not None and self._handle(gesture))
+        pane.on_flag(partial(self._open_flag, pane))
         self.refresh()
 
     def show_findings(self, findings: Iterable[Finding]) -> None:
-        """Show beside each pick the worst finding about it, instead of earlier messages."""
-        self._show_messages(
-            {
-                finding.pick: (finding.severity, finding.text)
-                for finding in reversed(worst_first(findings))
-                if finding.pick is not None
-            }
-        )
-
-    def _show_messages(self, messages: dict[str, tuple[str, str]]) -> None:
-        self._messages = messages
+        """Show beside each pick the worst finding about it, and flags on the section, instead of earlier ones."""
+        sorted_findings = worst_first(findings)
+        self._findings = sorted_findings
+        self._messages = {
+            finding.pick: (finding.severity, finding.text)
+            for finding in reversed(sorted_findings)
+            if finding.pick is not None
+        }
         self.list.update(self._all_messages())
+        for pane in (self.pane, *self._others):
+            self._draw(pane)
+
+    def on_finding(self, callback: Callable[[Finding], None]) -> None:
+        """Call a function with a finding whose flag on the section is clicked."""
+        self._finding_listeners.append(callback)
+
+    def _open_flag(self, pane: SectionPane, index: int) -> None:
+        """Select the pick that a flag is about."""
+        shown = [finding for finding, _ in flags(self._findings, pane.line_projection())]
+        if index >= len(shown):
+            return  # a newer picture has other flags
+        finding = shown[index]
+        for pick in self.drawing.picks:
+            if pick.name == finding.pick:
+                self.editor.select(pick.kind, pick.name)
+        self.refresh()
+        for listen in self._finding_listeners:
+            listen(finding)
 
     def refresh(self) -> None:
         """Show the editor's state in all panes, in the list and in the toolbar."""
@@ -197,12 +217,13 @@ class Picker(WithParts, VBox):
 
     def _draw(self, pane: SectionPane) -> None:
         state, projection = self.editor.state, pane.line_projection()
-        shown = state, projection.view, projection.restoration
+        shown = state, projection.view, projection.restoration, self._findings
         if self._drawn.get(pane) == shown:
             return
         self._drawn[pane] = shown
         pane.draw_lines(strokes(state, projection))
-        pane.draw_marks(marks(state, projection, self.editor.cutoffs()))
+        flagged = [flag for _, flag in flags(self._findings, projection)]
+        pane.draw_marks([*marks(state, projection, self.editor.cutoffs()), *flagged])
         pane.rubber = rubber_band(state, projection)
 
     def _show_history(self, name: str, entry: Entry | None) -> None:

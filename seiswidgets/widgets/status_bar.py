@@ -6,11 +6,12 @@ from html import escape
 from ipywidgets import HTML, Box, Button, FloatProgress, HBox, Label, Layout, ToggleButton
 from traitlets import Bool, Unicode
 
+from seiswidgets.geology.findings import Finding
 from seiswidgets.widgets.binding import bind_control
 from seiswidgets.widgets.messages import HINT, TROUBLE
 from seiswidgets.widgets.restorer import Progress
 from seiswidgets.widgets.severity import LOOKS, label
-from seiswidgets.widgets.verdict import Verdict
+from seiswidgets.widgets.verdict import Verdict, title_of
 
 BUSY = "Restoring…"
 VERDICT = (  # at most two lines, for which there is space: the panes below must not jump
@@ -82,6 +83,19 @@ class StatusBar(Box):
     def show_busy(self) -> None:
         """Show that a newer result is being computed, instead of the verdict on an older one."""
         self.hint(BUSY)
+
+    def tell(self, finding: Finding) -> None:
+        """Show one finding in full."""
+        text = f"{title_of(finding)}: {finding.text}"
+        self.text = text
+        look = LOOKS[finding.severity]
+        self.line.value = VERDICT.format(
+            role=look.role,
+            whole=escape(text),
+            label=label(finding.severity, title_of(finding)),
+            text=escape(finding.text),
+            rest="",
+        )
 
     def judge(self, verdict: Verdict) -> None:
         """Show the verdict on a restoration: its label, and one sentence."""

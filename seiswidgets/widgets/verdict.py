@@ -20,6 +20,7 @@ TITLES = {
     "datum": "off its datum",
     "crossing": "horizons cross",
 }
+INCOMPLETE = {"undetermined", "one-sided"}  # kinds of findings about drawings in progress
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,12 @@ class Verdict:
         title = f"check: {title_of(worst)}" if worst.severity == "warning" else title_of(worst)
         rest = f"and {len(grave) - 1} more (see Report)" if grave[1:] else ""
         return cls(worst.severity, title, worst.text, rest, findings)
+
+    @property
+    def is_incomplete(self) -> bool:
+        """True if nothing is wrong except that some picks need another line before they can constrain."""
+        grave = [finding for finding in self.findings if finding.severity != "note"]
+        return bool(grave) and all(finding.kind in INCOMPLETE for finding in grave)
 
     @property
     def is_good(self) -> bool:

@@ -15,9 +15,9 @@ def test_horizons_that_cross_are_found_where_they_do(case):
     steep = sw.Horizon([(200.0, 500.0), (600.0, 900.0)], name="B")
     apart = sw.Horizon([(0.0, 700.0), (250.0, 700.0)], name="C")
     (finding,) = crossing_findings(case.section, [level, steep, apart])
-    assert (finding.severity, finding.kind, finding.pick) == ("warning", "crossing", "A")
+    assert (finding.severity, finding.kind, finding.pick) == ("warning", "crossing", "B")
     assert finding.where == pytest.approx((300, 600))
-    assert "horizons A and B cross near x=300 m, z=600 m" in finding.text
+    assert "horizon 'B' crosses horizon 'A' near x=300 m, z=600 m" in finding.text
 
 
 def test_a_horizon_that_ends_at_another_does_not_cross_it(case):

@@ -19,7 +19,7 @@ LEVELS, PALETTE = np.zeros((3, 4), np.uint8), np.zeros((256, 4), np.uint8)
         (lambda: Overlay(LEVELS[:0], PALETTE, (0, 1, 0, 1)), r"levels must be .* of shape \(0, 4\)"),
         (lambda: Overlay(LEVELS, PALETTE[:, :3], (0, 1, 0, 1)), r"palette must be .*\(256, 4\), but is .*\(256, 3\)"),
         (lambda: Overlay(LEVELS, PALETTE, (0, 0, 0, 1)), "an overlay's window must be"),
-        (lambda: Mark((0, 0), "skull"), "kind must be one of cutoff, held, cursor, but is 'skull'"),
+        (lambda: Mark((0, 0), "skull"), "kind must be one of cutoff, held, cursor, finding, but is 'skull'"),
     ],
 )
 def test_what_cannot_be_drawn(make, message):

@@ -25,8 +25,8 @@ def new_app(case):
     """A function that makes an app which is on the screen; its threads are ended."""
     made = []
 
-    def new(*arguments, **settings):
-        app = RestorationApp(case.section, *arguments, **settings)
+    def new(*arguments, section=case.section, **settings):
+        app = RestorationApp(section, *arguments, **settings)
         app.solving.spacing = settings.get("spacing", 100.0)
         appear(app.panes.original, app.panes.restored)
         made.append(app)
@@ -61,12 +61,58 @@ def test_an_empty_app_says_what_to_do(new_app, case):
     app = new_app()
     assert "Draw a fault" in app.status.text
     app.interpretation = sw.Interpretation(case.interpretation.faults)
-    assert "Now choose Horizon" in app.status.text
+    assert "Now choose Horizon and draw one on both sides of F1" in app.status.text
     assert app.restoration.stages == ()
     app.interpretation = case.interpretation
     assert app.wait(LONG)
     assert app.status.text.startswith("Settled. Cut-offs meet to ")
     assert len(app.restoration.stages) == 2
+
+
+@pytest.mark.parametrize(("piece", "side"), [(0, "right"), (1, "left")])
+def test_a_drawing_in_progress_is_not_scolded_but_told_what_is_next(new_app, case, piece, side):
+    pieces = sorted(case.interpretation.horizons[0].pieces, key=lambda points: points[:, 0].mean())
+    app = new_app(sw.Interpretation(case.interpretation.faults, [sw.Horizon(pieces[piece][3:-3], name="H1")]))
+    assert app.wait(LONG)
+    assert f"Now draw H1 {side} of F1" in app.status.text
+    assert 'role="status"' in app.status.line.value
+    assert app.panes.restored.badge.severity in ("", "note")
+    assert not [mark for mark in app.panes.original.layer.marks if mark["kind"] == "finding"]
+    app.interpretation = case.interpretation
+    assert app.wait(LONG)
+    assert app.status.text.startswith("Settled")
+
+
+def test_a_hold_that_cannot_be_explains_itself_in_the_apps_words_at_its_pin(new_app):
+    blind = sw.synthetic.blind_fault()
+    app = new_app(blind.interpretation, section=blind.section)
+    x, z = (float(value) for value in np.mean([blind.section.extent[:2], blind.section.extent[2:]], axis=1))
+    app.fixed = (x, z)
+    app.restore()
+    assert app.wait(LONG)
+    assert app.status.text.startswith("Hold: no block is cut off")
+    assert "fixed" not in app.status.text
+    assert app.panes.restored.badge.text == "not restored"
+    marks = {mark["kind"]: mark for mark in app.panes.original.layer.marks}
+    flag, pin = marks["finding"], marks["held"]
+    assert (flag["x"], flag["z"]) == pytest.approx((pin["x"], pin["z"]), abs=1)
+
+
+def test_a_flag_on_the_section_opens_its_finding(app, case):
+    left, right = case.interpretation.horizons[0].pieces
+    crossing = sw.Horizon(left + [0, 300], right - [0, 250], name="X")
+    app.interpretation = sw.Interpretation(case.interpretation.faults, [*case.interpretation.horizons[:1], crossing])
+    assert app.wait(LONG)
+    flagged = [mark for mark in app.panes.original.layer.marks if mark["kind"] == "finding"]
+    shown = [finding for finding in app.restoration.findings if finding.severity != "note" and finding.where]
+    assert [mark["text"] for mark in flagged] == [finding.text for finding in shown]
+    np.testing.assert_allclose([(mark["x"], mark["z"]) for mark in flagged], [finding.where for finding in shown])
+    app.tabs.selected_index = 1
+    index = next(index for index, finding in enumerate(shown) if finding.pick == "X")
+    tell(app.panes.original, "finding", key=str(index))
+    assert shown[index].text in app.status.text
+    assert app.picker.editor.state.selection.name == "X"
+    assert app.tabs.selected_index == 0
 
 
 def test_picks_drawn_by_hand_restore_by_themselves(new_app, case):

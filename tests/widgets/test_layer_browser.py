@@ -278,3 +278,13 @@ def test_a_double_click_is_told_once(bare_layer):
     layer.page.mouse.dblclick(200, 150)
     kinds = [message["kind"] for message in layer.sent() if message["kind"] in ("press", "release", "double")]
     assert kinds == ["press", "release", "press", "release", "double"]
+
+
+def test_a_findings_flag_is_clicked_by_mouse_and_keyboard_and_is_no_press(bare_layer):
+    flag = Mark((150, 50), "finding", "H1 is <b>apart</b>", "#d32f2f", "M4 4L12 12")
+    layer = bare_layer(marks=[flag.state()])
+    button = layer.page.get_by_role("button", name="H1 is <b>apart</b>")
+    button.click()
+    button.press("Enter")
+    assert [message["key"] for message in layer.sent("finding")] == ["0", "0"]
+    assert layer.sent("press", "key") == []

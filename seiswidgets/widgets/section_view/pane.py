@@ -131,6 +131,7 @@ class SectionPane(WithParts, VBox):
         self._mesh: Mesh | None = None
         self._gesture_listeners: list[GestureListener] = []
         self._hover_listeners: list[HoverListener] = []
+        self._flag_listeners: list[Callable[[int], None]] = []
         self._pointer: Point | None = None  # in css pixels of the plot area; None while it is elsewhere
         self.projection = self.line_projection = lambda: PaneProjection(self.view)
         self._painter = Painter(section, _plot_area())
@@ -191,6 +192,10 @@ class SectionPane(WithParts, VBox):
     def on_hover(self, callback: HoverListener) -> None:
         """Call a function with the point (x, z) under the pointer, a few times a second; None when it leaves."""
         self._hover_listeners.append(callback)
+
+    def on_flag(self, callback: Callable[[int], None]) -> None:
+        """Call a function with the index, among the flags drawn, of a finding's flag that is clicked."""
+        self._flag_listeners.append(callback)
 
     @property
     def pointer(self) -> Point | None:
@@ -283,6 +288,9 @@ class SectionPane(WithParts, VBox):
     def _act(self, message: PointerMessage) -> None:
         if message.kind == "size":
             self._resize(message)
+        elif message.kind == "finding":
+            for listen in self._flag_listeners:
+                listen(int(message.key))
         elif message.kind == "rest":
             self._painter.sharpen(self.view)
         else:

@@ -22,7 +22,7 @@ function takeHotkeys(box, getNames, act) {
       const { target, key } = event;
       const withCtrl = event.ctrlKey || event.metaKey;
       const name = (withCtrl ? "Ctrl+" : "") + key;
-      if (event.altKey || !(target instanceof Element) || target.matches(OWN_KEYS) || !getNames().includes(name))
+      if (event.altKey || !(target instanceof Element) || target.closest(OWN_KEYS) || !getNames().includes(name))
         return;
       if (target.matches(TEXT)) {
         const isTyped = (

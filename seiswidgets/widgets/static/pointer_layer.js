@@ -1138,6 +1138,7 @@ var LivePane = class {
 
 // pointer_layer/marks.js
 var PIN = "M0,0C-2,-6 -7,-9 -7,-14A7,7 0 1 1 7,-14C7,-9 2,-6 0,0Z";
+var FLAG = 14;
 var CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 var DRAW = {
   cutoff(group, mark) {
@@ -1148,6 +1149,12 @@ var DRAW = {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });
     append(group, "circle", "eye", { cy: -14, r: 2.5 });
   },
+  finding(group, mark) {
+    append(group, "path", "mast", { d: `M0,0V${-FLAG}`, stroke: mark.colour });
+    const flag = append(group, "g", "flag", { transform: `translate(-8 ${-FLAG - 14})` });
+    append(flag, "circle", "ground", { cx: 8, cy: 8, r: 10 });
+    append(flag, "path", "icon", { d: mark.path, stroke: mark.colour });
+  },
   cursor(group, mark) {
     const halo = { className: "halo", width: 5, stroke: "white" };
     for (const { className, width, stroke } of [halo, { className: "aim", width: 2, stroke: mark.colour }]) {
@@ -1156,11 +1163,29 @@ var DRAW = {
     }
   }
 };
-function drawMarks(group, marks, plotArea) {
+function makeButton(flag, text, open) {
+  for (const [name, value] of Object.entries({ role: "button", tabindex: "0", "aria-label": text }))
+    flag.setAttribute(name, value);
+  append(flag, "title", "").textContent = text;
+  for (const type of ["pointerdown", "dblclick"]) flag.addEventListener(type, (event) => event.stopPropagation());
+  flag.addEventListener("click", open);
+  flag.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    event.stopPropagation();
+    open();
+  });
+}
+function drawMarks(group, marks, plotArea, open) {
   group.replaceChildren();
+  let flags = 0;
   for (const mark of marks) {
     const { x, y } = plotArea.toPixels(mark.x, mark.z);
-    DRAW[mark.kind](append(group, "g", `mark ${mark.kind}`, { transform: `translate(${x} ${y})` }), mark);
+    const element = append(group, "g", `mark ${mark.kind}`, { transform: `translate(${x} ${y})` });
+    DRAW[mark.kind](element, mark);
+    if (mark.kind !== "finding") continue;
+    const index = flags++;
+    makeButton(element, mark.text, () => open(index));
   }
 }
 
@@ -1429,7 +1454,13 @@ var LayerView = class {
     if (outdated.has("picture")) live.drawPicture(plotArea);
     if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
     if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
-    if (outdated.has("marks")) drawMarks(elements.marks, live.placedMarks(model.get("marks")), plotArea);
+    if (outdated.has("marks"))
+      drawMarks(
+        elements.marks,
+        live.placedMarks(model.get("marks")),
+        plotArea,
+        (index) => model.send({ kind: "finding", key: String(index) })
+      );
   }
   get strokes() {
     return this.model.get("strokes").map(decodeStroke);

@@ -1,8 +1,10 @@
-// Marks on the section: a numbered disc at a cut-off, a pin at the held point, and the keyboard's cursor.
+// Marks on the section: a numbered disc at a cut-off, a pin at the held point, the keyboard's cursor, and flags of
+// findings, which can be clicked.
 
 import { append, appendText, togglePale } from "../shared/svg.js";
 
 const PIN = "M0,0C-2,-6 -7,-9 -7,-14A7,7 0 1 1 7,-14C7,-9 2,-6 0,0Z"; // its tip is at 0,0
+const FLAG = 14; // css pixels from a finding's point up to its icon
 const CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 
 /** @typedef {import("./types.js").Mark} Mark */
@@ -17,6 +19,12 @@ const DRAW = {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });
     append(group, "circle", "eye", { cy: -14, r: 2.5 });
   },
+  finding(group, mark) {
+    append(group, "path", "mast", { d: `M0,0V${-FLAG}`, stroke: mark.colour });
+    const flag = append(group, "g", "flag", { transform: `translate(-8 ${-FLAG - 14})` });
+    append(flag, "circle", "ground", { cx: 8, cy: 8, r: 10 });
+    append(flag, "path", "icon", { d: mark.path, stroke: mark.colour });
+  },
   cursor(group, mark) {
     const halo = { className: "halo", width: 5, stroke: "white" };
     for (const { className, width, stroke } of [halo, { className: "aim", width: 2, stroke: mark.colour }]) {
@@ -27,14 +35,41 @@ const DRAW = {
 };
 
 /**
+ * Let a flag be clicked, by mouse, finger and keyboard; none of that is a gesture on the section below it.
+ *
+ * @param {SVGGElement} flag
+ * @param {string} text
+ * @param {() => void} open
+ */
+function makeButton(flag, text, open) {
+  for (const [name, value] of Object.entries({ role: "button", tabindex: "0", "aria-label": text }))
+    flag.setAttribute(name, value);
+  append(flag, "title", "").textContent = text;
+  for (const type of ["pointerdown", "dblclick"]) flag.addEventListener(type, (event) => event.stopPropagation());
+  flag.addEventListener("click", open);
+  flag.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    event.stopPropagation();
+    open();
+  });
+}
+
+/**
  * @param {SVGGElement} group
  * @param {Mark[]} marks
  * @param {import("./plot_area.js").PlotArea} plotArea
+ * @param {(index: number) => void} open called with the index of a flag that is clicked
  */
-export function drawMarks(group, marks, plotArea) {
+export function drawMarks(group, marks, plotArea, open) {
   group.replaceChildren();
+  let flags = 0;
   for (const mark of marks) {
     const { x, y } = plotArea.toPixels(mark.x, mark.z);
-    DRAW[mark.kind](append(group, "g", `mark ${mark.kind}`, { transform: `translate(${x} ${y})` }), mark);
+    const element = append(group, "g", `mark ${mark.kind}`, { transform: `translate(${x} ${y})` });
+    DRAW[mark.kind](element, mark);
+    if (mark.kind !== "finding") continue;
+    const index = flags++;
+    makeButton(element, mark.text, () => open(index));
   }
 }

@@ -24,7 +24,14 @@ export type Stroke = {
   chosen: number | null;
 };
 
-export type Mark = { x: number; z: number; kind: "cutoff" | "held" | "cursor"; text: string; colour: string };
+export type Mark = {
+  x: number;
+  z: number;
+  kind: "cutoff" | "held" | "cursor" | "finding";
+  text: string;
+  colour: string;
+  path: string;
+};
 
 export type Mesh = { vertices: DataView; edges: DataView };
 

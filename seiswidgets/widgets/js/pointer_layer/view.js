@@ -109,7 +109,10 @@ export class LayerView {
     if (outdated.has("picture")) live.drawPicture(plotArea);
     if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
     if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
-    if (outdated.has("marks")) drawMarks(elements.marks, live.placedMarks(model.get("marks")), plotArea);
+    if (outdated.has("marks"))
+      drawMarks(elements.marks, live.placedMarks(model.get("marks")), plotArea, (index) =>
+        model.send({ kind: "finding", key: String(index) }),
+      );
   }
 
   get strokes() {
