@@ -138,16 +138,20 @@ class RigidMotion:
         return np.asarray((points - self.start) @ [[cosine, sine], [-sine, cosine]] + self.stop)
 
 
-def rigid_motion(before: np.ndarray, after: np.ndarray, masses: np.ndarray) -> RigidMotion:
+def rigid_motion(
+    before: np.ndarray, after: np.ndarray, masses: np.ndarray, pole: np.ndarray | None = None
+) -> RigidMotion:
     """The rigid motion nearest to that of some points (Procrustes); it carries the centre of mass along.
 
     Parameters
     ----------
     before, after : array, shape (n, 2)
     masses : array, shape (n,)
+    pole : array, shape (2,), optional
+        A point that stays: the motion is a turn about it.
     """
     share = masses / masses.sum()
-    start, stop = share @ before, share @ after
+    start, stop = (share @ before, share @ after) if pole is None else (pole, pole)
     a, b = before - start, after - stop
     angle = np.arctan2(share @ (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]), share @ np.sum(a * b, axis=1))
     return RigidMotion(float(angle), start, stop)

@@ -10,7 +10,6 @@ from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob, Step
 from seiswidgets.geology.restoration import Beds, EndsOfFaults, Lines, Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.transfer import carried_point
 from seiswidgets.geology.unfaulting import Blocks, free_vertices, mesh_blocks
 from seiswidgets.geology.validation import checked_kind
 
@@ -63,11 +62,11 @@ def _check_unfaulting(start: Restoration, job: RestorationJob, step: Step) -> Se
     faults, boundaries = job.faults(step), job.boundaries(step)
     blocks, notes = start.with_usable_picks(mesh, faults, job.interpretation.horizons, boundaries)
     found = [*notes, *observe_picks(blocks, start.domain)]
-    if job.plan.fixed is not None:
-        try:
-            free_vertices(blocks.mesh, carried_point(start.original, (), job.plan.fixed), start.domain)
-        except PickError as error:
-            found.append(_refusal(error))
+    try:
+        holds = start.holds(job.plan.fixed, job.plan.pins, job.plan.regional)
+        free_vertices(blocks, holds.fixed, start.domain)
+    except PickError as error:
+        found.append(_refusal(error))
     return found
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from seiswidgets.core.solver import Progress
 from seiswidgets.core.triangulation import DENSITY
-from seiswidgets.errors import Keyword, PickError, SettingError
+from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.picks import CONSTRAIN, MISSING, Fault, Horizon, Interpretation
@@ -24,7 +24,7 @@ from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.weights import Weights
 
 UNFAULT, FLATTEN = "unfault", "flatten"
-UNUSED_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch")}
+UNUSED_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch", "rotation")}
 COARSE, QUICK = 3.0, 2  # a preview's mesh spacing as a multiple of the full one, and its number of iterations
 EDGES, VERTICES = 3, 100  # least numbers in a preview's mesh: edges along each pick, vertices in all
 
@@ -82,15 +82,15 @@ class Plan:
     fixed : (x, z), optional
         A point in the block that stays where it is, in the section's units.
     pins : tuple of (x, z)
-    regional : optional
-        Reserved for points and a level that hold the far field; not supported yet.
+    regional : float or tuple of (x, z), optional
+        Points that stay, and a level that is kept; see `Restoration.unfault`.
 
     Raises
     ------
     SettingError
-        If a choice is out of its range, or pins or a regional level are given.
+        If a choice is out of its range.
     PickError
-        If ``fixed`` is not a point.
+        If ``fixed`` is not a point, or ``pins`` or ``regional`` are not points.
 
     Examples
     --------
@@ -108,7 +108,7 @@ class Plan:
     max_iterations: int | None = None
     fixed: tuple[float, float] | None = None
     pins: tuple[tuple[float, float], ...] = ()
-    regional: float | None = None
+    regional: float | tuple[tuple[float, float], ...] | None = None
     weighting: str | None = None
 
     def __post_init__(self) -> None:
@@ -119,10 +119,11 @@ class Plan:
         SolverOptions(self.weights, self.solver, self.max_iterations, weighting=self.weighting)  # validates them
         if self.fixed is not None:
             object.__setattr__(self, "fixed", validation.held_point(self.fixed))
-        if self.pins or self.regional is not None:
-            raise SettingError(
-                "pins and a regional level are not supported yet; hold a block by ", Keyword("fixed"), " instead"
-            )
+        object.__setattr__(self, "pins", validation.held_points("pins", self.pins))
+        if isinstance(self.regional, int | float):
+            object.__setattr__(self, "regional", validation.finite_number("regional", self.regional))
+        elif self.regional is not None:
+            object.__setattr__(self, "regional", validation.held_points("regional", self.regional))
 
     def restore(
         self,
@@ -226,7 +227,10 @@ class RestorationJob:
         }
         if step.kind == UNFAULT:
             faults, horizons, others = self.faults(step), self.interpretation.horizons, self.boundaries(step)
-            return restoration.unfault(faults, horizons, boundaries=others, fixed=self.plan.fixed, **options)
+            fixed, pins, regional = self.plan.fixed, self.plan.pins, self.plan.regional
+            return restoration.unfault(
+                faults, horizons, boundaries=others, fixed=fixed, pins=pins, regional=regional, **options
+            )
         return restoration.flatten(self.horizon(step), datum=step.datum, **options)
 
     def faults(self, step: Step) -> list[Fault]:
@@ -264,12 +268,12 @@ class RestorationJob:
             picks += [*self.boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else ()
             names = [field.name for field in fields(Weights) if field.name not in UNUSED_WEIGHTS[step.kind]]
             weights = [getattr(self.plan.weights, name) for name in names]
-            fixed = self.plan.fixed if step.kind == UNFAULT else None
+            holds = (self.plan.fixed, self.plan.pins, self.plan.regional) if step.kind == UNFAULT else ()
             lines = [
                 (pick.name, pick.use, pick.ends if isinstance(pick, Fault) else "", *_lines(pick)) for pick in picks
             ]
             count = len(self.faults(step)) if step.kind == UNFAULT else 0
-            yield step.kind, step.datum, fixed, count, lines, weights, shared
+            yield step.kind, step.datum, holds, count, lines, weights, shared
 
 
 def _lines(pick: Fault | Horizon) -> list[list[list[float]]]:

@@ -17,6 +17,7 @@ from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage, mesh_bed
+from seiswidgets.geology.holds import Holds
 from seiswidgets.geology.passive import carried_finding, carry_refused, constraining, flaws
 from seiswidgets.geology.picks import Ends, Fault, Horizon, both_ends
 from seiswidgets.geology.report import verdict
@@ -36,6 +37,7 @@ from seiswidgets.geology.unfaulting import unfault_stage
 Lines = dict[str, np.ndarray]
 Beds = dict[str, list[LineString]]
 EndsOfFaults = dict[str, Ends]
+Regional = float | Sequence[tuple[float, float]] | None
 Made = TypeVar("Made")
 
 
@@ -99,6 +101,8 @@ class Restoration:
         *,
         boundaries: Fault | Sequence[Fault] = (),
         fixed: tuple[float, float] | None = None,
+        pins: Sequence[tuple[float, float]] = (),
+        regional: Regional = None,
         **options: Unpack[SolverKeywords],
     ) -> "Restoration":
         """Slide the blocks back along some faults until the horizons match across them (the paper's section 3.1).
@@ -115,8 +119,13 @@ class Restoration:
             and the rock does not slip along them, except where one of ``faults`` ends at a boundary and can continue
             along it without a sharp turn, as thrusts do on a common floor. Those among ``faults`` are left out.
         fixed : (x, z), optional
-            A point in the block that stays exactly where it is. If left out both sides of every fault move, and of
-            all solutions that differ by a rigid motion the one that moves least is taken.
+            A point in the block that stays exactly where it is; if faults die out inside that block, its far field on
+            this side of them does. If nothing is held both sides of every fault move, and of all solutions that differ
+            by a rigid motion the one that moves least is taken.
+        pins : list of (x, z), optional
+            Points that stay exactly where they are.
+        regional : float or list of (x, z), optional
+            A level that both ends of the section keep, in the unit of z, or a line of points that keep their depth.
         weights : Weights, optional
             Those of the paper if left out.
         solver : {"gauss-newton", "fixed-point"}
@@ -144,13 +153,25 @@ class Restoration:
             If ``progress`` returned False.
         """
         solver_options = SolverOptions.from_keywords("unfault", options)
-        held = None if fixed is None else carried_point(self.original, self.stages, fixed)
+        holds = self.holds(fixed, pins, regional)
 
         def slide_blocks(lines: Lines, beds: Beds, walls: Lines, ends: EndsOfFaults) -> Stage:
-            return unfault_stage(self.domain, lines, beds, held, solver_options, walls, ends=ends)
+            return unfault_stage(self.domain, lines, beds, holds, solver_options, walls, ends=ends)
 
         stage, notes = self.with_usable_picks(slide_blocks, faults, horizons, boundaries)
         return self._with_stage(replace(stage, weights=solver_options.weights, fixed=fixed), notes)
+
+    def holds(
+        self, fixed: tuple[float, float] | None, pins: Sequence[tuple[float, float]], regional: Regional
+    ) -> Holds:
+        """What holds the section, after the stages so far."""
+        x_min, x_max, *_ = self.original.extent
+        ends = [(x_min, regional), (x_max, regional)] if isinstance(regional, int | float) else regional
+        pinned, level = (
+            np.array([carried_point(self.original, self.stages, point) for point in points or ()]).reshape(-1, 2)
+            for points in (validation.held_points("pins", pins), validation.held_points("regional", ends or ()))
+        )
+        return Holds(None if fixed is None else carried_point(self.original, self.stages, fixed), pinned, level)
 
     def with_usable_picks(
         self,

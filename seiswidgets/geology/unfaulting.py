@@ -10,15 +10,16 @@ import numpy as np
 from shapely import LineString
 
 from seiswidgets.core.contact import Contact, contacts
+from seiswidgets.core.holds import EdgeDirection
 from seiswidgets.core.junctions import Continuation, continuations
 from seiswidgets.core.mesh import Cut, Mesh, edge_keys
 from seiswidgets.core.point_location import triangle_at
-from seiswidgets.core.rigid import nearest_rigid, rigid_blocks
+from seiswidgets.core.rigid import rigid_blocks
 from seiswidgets.core.seams import weld_seams
 from seiswidgets.core.term import Term
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along
-from seiswidgets.errors import Keyword, PickError
+from seiswidgets.errors import Keyword, PickError, SettingError
 from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import (
@@ -30,6 +31,8 @@ from seiswidgets.geology.fault_lines import (
     insert_points,
     route_through,
 )
+from seiswidgets.geology.holds import Holds, PinnedMesh
+from seiswidgets.geology.motion import RockParts
 from seiswidgets.geology.observations import observe_slip
 from seiswidgets.geology.picks import FAULT, HORIZON, TIP, Ends
 from seiswidgets.geology.segments import horizon_segments
@@ -103,7 +106,7 @@ def unfault_stage(
     domain: RestorationDomain,
     faults: Mapping[str, np.ndarray],
     horizons: Mapping[str, Sequence[LineString]],
-    fixed: np.ndarray | None,
+    holds: Holds,
     options: SolverOptions,
     boundaries: Mapping[str, np.ndarray],
     *,
@@ -116,8 +119,7 @@ def unfault_stage(
     domain : RestorationDomain
     faults : dict of str to array, shape (n, 2)
     horizons : dict of str to list of LineString
-    fixed : array, shape (2,), or None
-        A point in the block that stays.
+    holds : Holds
     options : SolverOptions
     boundaries : dict of str to array, shape (n, 2)
         Faults that are not restored in this stage, and that beds do not cross.
@@ -126,16 +128,20 @@ def unfault_stage(
     """
     began = time.perf_counter()
     blocks = mesh_blocks(domain, faults, horizons, boundaries, ends, options.start)
-    mesh, free = blocks.mesh, free_vertices(blocks.mesh, fixed, domain)
-    terms = _terms(blocks, options.row_weights)
+    mesh, free = blocks.mesh, free_vertices(blocks, holds.fixed, domain)
+    pinned = PinnedMesh(mesh, holds, domain, upright=options.weights.rotation > 0)
+    unheld = bool(free.all())
+    if pinned.term is not None and options.solver != GAUSS_NEWTON:
+        raise SettingError("pins and a regional level need ", Keyword("solver", GAUSS_NEWTON))
+    terms = [*_terms(blocks, options.row_weights), *([pinned.term] if pinned.term else [])]
     start = warm_start(mesh, free, options.start)
     if start is None:  # the paper starts its own solver from the unmoved mesh
         start = _slide_blocks(mesh, blocks.stitches, free, terms) if options.solver == GAUSS_NEWTON else mesh.vertices
-    adrift = bool(free.all())
-    solution = minimise(mesh, terms, start, free, domain, options, adrift=adrift)
-    vertices = solution.vertices
-    if adrift:
-        vertices = nearest_rigid(mesh.vertices, vertices, mesh.vertex_areas)
+        start = pinned.begin(start) if unheld else start
+    adrift = unheld and pinned.is_adrift
+    loose = pinned.loose if unheld and not adrift else free
+    solution = minimise(mesh, terms, start, loose, domain, options, adrift=adrift)
+    vertices = pinned.settle(solution.vertices) if unheld else solution.vertices
     welded, vertices = weld_seams(mesh, vertices, [_still_side_last(sides, free) for sides in blocks.sides.values()])
     observe = partial(observe_slip, blocks, solution, domain)
     seconds = time.perf_counter() - began
@@ -288,8 +294,13 @@ def _stitches(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]
     return np.array(ends, dtype=int)
 
 
-def free_vertices(mesh: Mesh, fixed: np.ndarray | None, domain: RestorationDomain) -> np.ndarray:
-    """The vertices that may move: all, or all but those of the block that holds a point."""
+def free_vertices(blocks: Blocks, fixed: np.ndarray | None, domain: RestorationDomain) -> np.ndarray:
+    """The vertices that may move: all, or all but those of the block that holds a point.
+
+    Where a fault dies out inside that block, holding all of it would hold the fault too: then only the far field on the
+    point's side of the fault stays.
+    """
+    mesh = blocks.mesh
     if fixed is None:
         return np.ones(len(mesh.vertices), bool)
     triangle = triangle_at(mesh.vertices, mesh.triangles, fixed)
@@ -299,14 +310,27 @@ def free_vertices(mesh: Mesh, fixed: np.ndarray | None, domain: RestorationDomai
             kind="held outside",
             where=domain.position(fixed),
         )
-    if mesh.blocks.max() == 0:
-        raise PickError(
-            "fixed is given, but the faults cut no block off: all of them end inside the section; leave out ",
-            Keyword("fixed"),
-            kind="nothing to hold",
-            where=domain.position(fixed),
-        )
-    return np.asarray(mesh.blocks != mesh.blocks[mesh.triangles[triangle, 0]])
+    block = mesh.blocks == mesh.blocks[mesh.triangles[triangle, 0]]
+    if not any(block[sides[0]].any() and block[sides[1]].any() for sides in blocks.sides.values()):
+        return np.asarray(~block)
+    return ~_far_field(blocks, fixed, triangle, domain)
+
+
+def _far_field(blocks: Blocks, fixed: np.ndarray, triangle: int, domain: RestorationDomain) -> np.ndarray:
+    """The vertices at the end of the section on a point's side of the faults; those of its triangle if there are none.
+
+    Returns
+    -------
+    array of bool, shape (n,)
+    """
+    mesh, parts = blocks.mesh, RockParts(domain.outline, blocks.lines)
+    centres = mesh.vertices[mesh.triangles].mean(axis=1)
+    limb = np.zeros(len(mesh.vertices), bool)
+    limb[mesh.triangles[parts.locate(centres) == parts.locate(fixed[None])]] = True
+    x, (x_min, _, x_max, _) = mesh.vertices[:, 0], domain.outline.bounds
+    ends = [limb & (np.abs(x - end) < 0.5 * domain.spacing) for end in (x_min, x_max)]
+    within = np.isin(np.arange(len(x)), mesh.triangles[triangle])
+    return min([end for end in ends if end.sum() > 1] or [within], key=lambda end: abs(fixed[0] - x[end].mean()))
 
 
 def _terms(blocks: Blocks, weights: Weights) -> list[Term]:
@@ -323,6 +347,7 @@ def _terms(blocks: Blocks, weights: Weights) -> list[Term]:
             for term in contacts(mesh, sides, blocks.lines[name], weights.slide, "contact", beyond)
         ),
         AreaBarrier(mesh),
+        *([EdgeDirection(mesh.vertices, mesh.edges, weights.rotation)] if weights.rotation else []),
     ]
 
 

@@ -51,6 +51,14 @@ def held_point(value: ArrayLike) -> tuple[float, float]:
     return float(point[0]), float(point[1])
 
 
+def held_points(name: str, points: Iterable[ArrayLike]) -> tuple[tuple[float, float], ...]:
+    """Validate points (x, z) that are held; ``name`` is the keyword they were given by."""
+    try:
+        return tuple(held_point(point) for point in points)
+    except (TypeError, PickError):
+        raise PickError(f"{name} must be points (x, z) of two finite numbers each, but is {points!r}") from None
+
+
 def named_picks(picks: Pick | Iterable[Pick], kind: type[Pick], word: str) -> dict[str, Pick]:
     """Faults or horizons by name, from one or several; a repeated name gets a number appended.
 

@@ -19,6 +19,8 @@ class Weights:
         Its zeta and lambda while unfaulting: blocks stay in contact, and cut-offs meet.
     flatten, length : float
         Its zeta and lambda while flattening: the horizon becomes level, and keeps its length.
+    rotation : float
+        Not in the paper, and off by default: how strongly blocks are kept from turning while unfaulting.
 
     Those of a line (stitch, flatten, length) are multiplied by the root of the number of its edges, so that they mean
     the same on a fine mesh as on a coarse one.
@@ -36,6 +38,7 @@ class Weights:
     stitch: float = 10.0
     flatten: float = 10.0
     length: float = 10.0
+    rotation: float = 0.0
 
     def __post_init__(self) -> None:
         values = {field.name: getattr(self, field.name) for field in fields(self)}

@@ -118,6 +118,11 @@ class EditorState:
         """The held point."""
         return self.document.plan.fixed
 
+    @property
+    def pins(self) -> tuple[Point, ...]:
+        """Further points that stay where they are."""
+        return self.document.plan.pins
+
     def change(self, **changes: Any) -> "EditorState":
         """Change fields, then make the mode that of the draft line, and reduce the selection to what exists."""
         state = replace(self, **changes)
@@ -133,6 +138,13 @@ class EditorState:
     def hold(self, point: Point | None) -> "EditorState":
         """Hold the block that a point lies in; with None, hold no block."""
         return self.change(document=replace(self.document, plan=replace(self.document.plan, fixed=point)))
+
+    def toggle_pin(self, point: Point) -> "EditorState":
+        """Hold a point, or release it if it is held."""
+        plan = self.document.plan
+        pins = tuple(pin for pin in plan.pins if pin != point)
+        plan = replace(plan, pins=pins if point in plan.pins else (*pins, point))
+        return self.change(document=replace(self.document, plan=plan))
 
     def settle(self) -> "EditorState":
         """End a drag where it is."""

@@ -93,8 +93,10 @@ def _space(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
 
 
 def _put(state: EditorState, event: Key, tools: Tools) -> EditorState:
-    """Put a vertex, or the held point, at the keyboard cursor."""
+    """Put a vertex, or the held point, with Shift a pin, at the keyboard cursor."""
     cursor = _cursor(state, tools)
+    if state.mode == BLOCK and ("shift" in event.modifiers or cursor in state.pins):
+        return state.toggle_pin(cursor)
     if state.mode == BLOCK:
         return state.hold(None if state.fixed == cursor else cursor)
     added = state.add(cursor, tools, event.projection, select=False)

@@ -92,7 +92,11 @@ def _dragged(drag: Drag, event: Move | Release, tools: Tools) -> Drawing:
 
 
 def _toggle_held(state: EditorState, event: Press, tools: Tools) -> EditorState:
+    """Hold the block under the pointer, with Shift the point there; or release what is held there."""
     held = state.fixed
+    hit = next((pin for pin in state.pins if vertex_under(event, [pin], event.projection.to_pixels)), None)
+    if hit or "shift" in event.modifiers:
+        return state.toggle_pin(hit or tools.inside(event.point))
     is_hit = held is not None and vertex_under(event, [held], event.projection.to_pixels)
     return state.hold(None if is_hit else tools.inside(event.point))
 

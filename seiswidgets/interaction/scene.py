@@ -36,6 +36,7 @@ def marks(state: EditorState, projection: PaneProjection, cutoffs: tuple[CutOffH
     present = [Mark(handle.inside, "cutoff", str(handle.number), colours[handle.fault]) for handle in cutoffs]
     if state.fixed:
         present.append(Mark(state.fixed, "held", "held", DRAFT_COLOUR))
+    present += [Mark(pin, "held", "pin", DRAFT_COLOUR) for pin in state.pins]
     if state.cursor:
         present.append(Mark(state.cursor, "cursor", "", DRAFT_COLOUR))
     points = projection.to_pane([mark.point for mark in present]).tolist()

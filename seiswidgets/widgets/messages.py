@@ -8,8 +8,6 @@ TROUBLE = '<div role="alert" style="color: var(--jp-error-color1, #b71c1c); line
 HINT = '<div role="status" style="color: var(--jp-ui-font-color2, #616161); line-height: 1.4">{}</div>'
 
 IN_THE_APP = {  # by the kind of an error
-    "nothing to hold": "Hold: no block is cut off, since every fault ends inside the section. Click the pin to remove "
-    "it; both sides of each fault move then.",
     "held outside": "Hold: the pin lies outside the rock. Click it to remove it, then click inside the block to hold.",
 }
 

@@ -41,7 +41,10 @@ MODE_LABELS = {
     LOOK: ("Look", "Zoom and pan; click a line to select it (L)"),
     FAULT: ("Fault", "Click along a fault; double click or press Enter to finish it (F)"),
     HORIZON: ("Horizon", "Click along a horizon; double click or press Enter to finish a piece of it (H)"),
-    BLOCK: ("Hold", "Click in the block that must not move; click the pin to release it (B)"),
+    BLOCK: (
+        "Hold",
+        "Click in the block to hold, or Shift+click a point to pin; click a pin to release it (B)",
+    ),
 }
 ACTIONS = {  # icon, action, keys
     "undo": ("undo", "Undo", "Ctrl+Z"),

@@ -89,7 +89,7 @@ class Work:
         session = Session(**session_fields(entry["session"], allow_outside=False))
         line = entry.optional("draft", _line, None)
         drawing = replace(drawing_of(session), draft=line)
-        points = [*(line.points if line else ()), *([session.fixed] if session.fixed else [])]
+        points = [*(line.points if line else ()), *([session.fixed] if session.fixed else []), *session.plan.pins]
         if not (drawing.lies_on(section) and (not points or section.contains(points).all())):
             raise DataError(f"{KEPT} must lie on the section, but reaches beyond it; start over")
         return cls(drawing, session.plan, entry.optional("settings", _settings, {}))

@@ -113,15 +113,15 @@ class Workspace(HasTraits):
         source : SectionSource, optional
             Origin of the section.
         plan : Plan, optional
-            If left out, the present steps and weights on a mesh of default spacing; the held point stays if it lies
-            on the new section.
+            If left out, the present steps and weights on a mesh of default spacing; held points stay if they lie on
+            the new section, and so does a regional level.
 
         Raises
         ------
         DataError
             If a session cannot save the edits of the present section.
         """
-        plan = plan or replace(self.plan, spacing=None, fixed=self._kept_point(section))
+        plan = plan or replace(self.plan, spacing=None, **self._kept_holds(section))
         self.edit(f"open {_title(section, source)}", section=section, drawing=drawing, source=source, plan=plan)
 
     def as_drawn(self, interpretation: Interpretation) -> Interpretation:
@@ -133,15 +133,29 @@ class Workspace(HasTraits):
     def picks_fit(self, section: Section) -> bool:
         """Return whether the picks and the held point lie on another section too, in the same units."""
         same_units = (section.x_unit, section.z_unit) == (self.section.x_unit, self.section.z_unit)
-        return same_units and self.drawing.lies_on(section) and self._kept_point(section) == self.plan.fixed
+        return (
+            same_units
+            and self.drawing.lies_on(section)
+            and replace(self.plan, **self._kept_holds(section)) == self.plan
+        )
 
     def guard_section(self, check: Callable[[], None]) -> None:
         """Call a function before each change of section; it may raise to prevent the change."""
         self._guards.append(check)
 
-    def _kept_point(self, section: Section) -> tuple[float, float] | None:
-        fixed = self.plan.fixed
-        return fixed if fixed is not None and section.contains([fixed]).all() else None
+    def _kept_holds(self, section: Section) -> dict[str, Any]:
+        """The held points and the regional level of the plan that lie on a section."""
+        plan = self.plan
+
+        def lies_on(*points: tuple[float, float]) -> bool:
+            return bool(section.contains(points).all())
+
+        level = [(section.x0, plan.regional)] if isinstance(plan.regional, float) else plan.regional or ()
+        return {
+            "fixed": plan.fixed if plan.fixed and lies_on(plan.fixed) else None,
+            "pins": tuple(pin for pin in plan.pins if lies_on(pin)),
+            "regional": plan.regional if level and lies_on(*level) else None,
+        }
 
     def _check(self, document: Document) -> None:
         if document.section is not self.section:

@@ -306,7 +306,6 @@ BAD_DRAWINGS = {  # picks to unfault, the pick that the error is about, and the 
     "out of reach": ((FAULT, horizon([(0, 400), (270, 400)], [(1310, 500), (1500, 500)])), "F1", None),
     "one side": ((FAULT, horizon(LEFT)), "F1", (780, 400)),
     "too far": ((FAULT, horizon(LEFT, [(1400, 500), (1500, 500)])), "F1", (780, 400)),
-    "no block": ((BLIND, BENT, (100, 100)), None, (100, 100)),
 }
 
 
@@ -332,7 +331,6 @@ def test_positions_of_errors_are_in_the_units_of_a_time_section():
         (lambda: sw.Restoration(SECTION, spacing=0.5).flatten(HORIZON), "spacing"),
         (lambda: sw.Restoration(SECTION, spacing=400).flatten(sw.Horizon([(0, 400), (1500, 400)])), "spacing"),
         (lambda: sw.Restoration(SECTION, spacing=SPACING).unfault(fault((700, 300), (750, 350)), HORIZON), "spacing"),
-        (lambda: sw.Restoration(SECTION).unfault(BLIND, BENT, fixed=(100, 100)), "fixed"),
     ],
 )
 def test_keywords_that_an_error_advises_are_parts_of_its_text(work, keyword):
@@ -351,12 +349,6 @@ def test_a_misspelt_option_is_an_error_that_suggests_the_right_one(start, kind):
 @pytest.mark.parametrize(("fixed", "message"), FIXED.values(), ids=FIXED)
 def test_fixed(start, fixed, message):
     raises_and_changes_nothing(start, sw.PickError, message, lambda it: it.unfault(FAULT, HORIZON, fixed=fixed))
-
-
-def test_fixed_where_nothing_is_cut_off(start):
-    message = "fixed is given, but the faults cut no block off.*leave out fixed="
-    raises_and_changes_nothing(start, sw.PickError, message, lambda it: it.unfault(BLIND, BENT, fixed=(100, 100)))
-    assert start.unfault(BLIND, BENT).stages[-1].report.converged
 
 
 @pytest.mark.parametrize(("settings", "message"), SETTINGS.values(), ids=SETTINGS)

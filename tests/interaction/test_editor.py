@@ -17,6 +17,7 @@ from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import MODES
 from seiswidgets.interaction.gestures import DoubleClick, Key, Move, Press, Release
 from seiswidgets.interaction.projection import PaneProjection
+from seiswidgets.interaction.scene import marks
 from seiswidgets.interaction.snapping import follow_event, snap_to_event
 from seiswidgets.interaction.viewport import Viewport
 
@@ -523,6 +524,21 @@ def test_hold_a_block(editor):
     assert editor.state.fixed is not None
     keys(editor, "Enter")
     assert editor.state.fixed is None
+
+
+def test_pin_points(editor):
+    editor.enter("block")
+    click(editor, (200.0, 300.0))
+    for point in ((600.0, 300.0), (100.0, 100.0)):
+        click(editor, point, modifiers=frozenset({"shift"}))
+    assert editor.state.pins == ((600.0, 300.0), (100.0, 100.0))
+    assert editor.state.fixed == (200.0, 300.0)
+    shown = [mark.text for mark in marks(editor.state, PLAIN, ()) if mark.kind == "held"]
+    assert shown == ["held", "pin", "pin"]
+    click(editor, (603.0, 302.0))
+    assert editor.state.pins == ((100.0, 100.0),)
+    editor.undo()
+    assert editor.state.pins == ((600.0, 300.0), (100.0, 100.0))
 
 
 # Undo and Escape

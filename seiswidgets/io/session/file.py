@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from seiswidgets.io.session.session import Session
 
 FORMAT, VERSION = "seiswidgets session", 1
-NOT_IN_PLAN = ("fixed", "pins", "regional")  # the held point is saved with the picks; the others are not supported yet
+NOT_IN_PLAN = ("fixed", "pins", "regional")  # saved with the picks: points of the section
 DEEPEST = 4  # lists within lists in the choices of a source
 
 Arguments = ParamSpec("Arguments")
@@ -79,6 +79,8 @@ def session_document(session: "Session", path: Path) -> dict[str, Any]:
             "faults": [{"name": pick.name, "points": pick.pieces[0], **_style(pick)} for pick in session.faults],
             "horizons": [{"name": pick.name, "pieces": pick.pieces, **_style(pick)} for pick in session.horizons],
             "fixed": session.fixed,
+            "pins": session.plan.pins,
+            "regional": session.plan.regional,
         },
         "plan": {name: value for name, value in asdict(session.plan).items() if name not in NOT_IN_PLAN},
     }
@@ -114,7 +116,7 @@ def session_fields(entry: Entry, allow_outside: bool) -> SessionFields:
         "sha256": section.optional("sha256", _sha256, None),
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
-        "plan": replace(document.optional("plan", _plan, Plan()), fixed=picks.optional("fixed", Entry.point, None)),
+        "plan": _with_holds(document.optional("plan", _plan, Plan()), picks),
         "written_by": document.optional("written_by", Entry.text, ""),
     }
 
@@ -224,6 +226,19 @@ def _plan(entry: Entry) -> Plan:
         spacing=entry.optional("spacing", Entry.number, None),
         max_iterations=entry.optional("max_iterations", _count, None),
     )
+
+
+def _with_holds(plan: Plan, picks: Entry) -> Plan:
+    return replace(
+        plan,
+        fixed=picks.optional("fixed", Entry.point, None),
+        pins=picks.optional("pins", Entry.points, ()),
+        regional=picks.optional("regional", _regional, None),
+    )
+
+
+def _regional(entry: Entry) -> float | Points:
+    return entry.points() if isinstance(entry.value, list) else entry.number()
 
 
 def _count(entry: Entry) -> int:

@@ -33,6 +33,7 @@ GROUPS = {
     ),
     "Unfaulting": (
         Term("slide", "ζ", "slide", "How strongly the two sides of a fault stay in contact as they slide."),
+        Term("rotation", "", "rotation", "How strongly blocks are kept from turning; 0 in the paper: not at all."),
         Term("stitch", "λ", "stitch", "How strongly the cut-offs of a horizon are brought together at a fault."),
     ),
     "Flattening": (
@@ -84,7 +85,7 @@ class WeightSliders(WithParts, VBox):
             max=HIGHEST,
             step=STEP,
             readout=False,
-            description=f"{term.symbol} {term.name}",
+            description=f"{term.symbol} {term.name}".strip(),
             tooltip=term.meaning,
             style={"description_width": "100px"},
             layout=Layout(flex="1 1 auto", width="auto", min_width="0"),
