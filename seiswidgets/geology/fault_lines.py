@@ -230,6 +230,39 @@ def route_through(
     return insert_points(LineString(points[new]), crossings)
 
 
+def settle_tips(
+    lines: Mapping[str, LineString],
+    beds: Sequence[LineString],
+    cutoffs: Mapping[str, Sequence[Position]],
+    domain: RestorationDomain,
+) -> dict[str, LineString]:
+    """Move the ends of faults onto what nearly coincides with them.
+
+    An end at another fault moves to a cut-off beside it, and an end inside the rock onto a horizon that passes it.
+
+    Parameters
+    ----------
+    lines : dict of str to LineString
+    beds : list of LineString
+    cutoffs : dict of str to list of (x, z)
+        Points where horizons end at each fault.
+    domain : RestorationDomain
+    """
+    settled = {}
+    for name, line in lines.items():
+        points = shapely.get_coordinates(line)
+        for which in (0, -1):
+            tip = Point(points[which])
+            met = [other for other in lines if other != name and _touches(lines[other], tip.coords[0])]
+            if domain.outline.boundary.distance(tip) > TOUCHING * domain.spacing:
+                near = [Point(cutoff) for other in met for cutoff in cutoffs[other]] if met else beds
+                target = min(near, key=tip.distance, default=tip)
+                if 0 < tip.distance(target) <= CLOSE * domain.spacing:
+                    points[which] = target.interpolate(target.project(tip)).coords[0] if not met else target.coords[0]
+        settled[name] = LineString(points)
+    return settled
+
+
 def fault_crossings(name: str, lines: Mapping[str, LineString]) -> list[Position]:
     """The points where other faults cross one, or end at it."""
     line = lines[name]

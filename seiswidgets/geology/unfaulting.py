@@ -30,6 +30,7 @@ from seiswidgets.geology.fault_lines import (
     fault_lines,
     insert_points,
     route_through,
+    settle_tips,
 )
 from seiswidgets.geology.holds import Holds, PinnedMesh
 from seiswidgets.geology.motion import RockParts
@@ -212,13 +213,16 @@ def _network(
     boundaries: Sequence[LineString],
     domain: RestorationDomain,
 ) -> PickNetwork:
-    """Match faults and horizons, without the drawn points of faults that lie close to a cut-off."""
+    """Match faults and horizons, without the drawn points of faults that lie close to a cut-off or a horizon."""
     network = _match(drawn, horizons, boundaries, domain)
+    beds = [piece for pieces in horizons.values() for piece in pieces]
+    settled = settle_tips(drawn, beds, {name: network.ends_at(name) for name in drawn}, domain)
+    network = network if settled == drawn else _match(settled, horizons, boundaries, domain)
     routed = {
-        name: route_through(line, network.ends_at(name), fault_crossings(name, drawn), CLOSE * domain.spacing)
-        for name, line in drawn.items()
+        name: route_through(line, network.ends_at(name), fault_crossings(name, settled), CLOSE * domain.spacing)
+        for name, line in settled.items()
     }
-    return network if routed == drawn else _match(routed, horizons, boundaries, domain)
+    return network if routed == settled else _match(routed, horizons, boundaries, domain)
 
 
 def _match(

@@ -114,3 +114,35 @@ def test_a_fault_point_beside_a_branch(off, spacing):
     for before, after in zip(plain.cutoffs, crowded.cutoffs, strict=True):
         assert after.throw == pytest.approx(before.throw, abs=0.01)
         assert after.misfit == pytest.approx(before.misfit, abs=0.2)
+
+
+@pytest.mark.parametrize("off", [-3.0, -0.3, -0.02, 0.02, 0.3, 3.0])
+def test_a_horizon_that_passes_a_tip_nearly(off):
+    """A fault that dies out a little above or below a horizon might as well die out on it."""
+    beds = []
+    for number, z in enumerate((500.0, 900.0, 1300.0), 1):
+        throw = 120 * np.sqrt(1 - (z / 1700) ** 2)
+        footwall, hanging_wall = at(z - throw / 2), at(z + throw / 2)
+        x = np.linspace(hanging_wall[0], WIDTH, 20)
+        drag = hanging_wall[1] - throw / 2 * (1 - np.exp((hanging_wall[0] - x) / 900))
+        beds.append(sw.Horizon([(0, footwall[1]), footwall], np.column_stack([x, drag]), name=f"H{number}"))
+    beds.append(sw.Horizon([(0, 1700 + off), (WIDTH, 1700 + off)], name="at the tip"))
+    report = sw.Restoration(SECTION, spacing=100).unfault(sw.Fault([at(0.0), at(1700.0)]), beds).stages[-1].report
+    assert report.converged
+    assert report.iterations <= 10
+
+
+@pytest.mark.parametrize("off", [-3.0, -0.1, 0.1, 3.0])
+def test_a_fault_that_ends_beside_a_cut_off_of_another(off):
+    sunk, meeting = 40.0, at(1300.0 + off)
+    start = np.array([3100.0, 0.0])
+    down = (meeting - start) / np.hypot(*(meeting - start))
+    beds = []
+    for z in (400.0, 850.0):
+        inner = [at(z + sunk), start + (z + sunk) / down[1] * down]
+        beds.append(sw.Horizon([(0, z), at(z)], inner, [start + z / down[1] * down, (WIDTH, z)], name=f"H{z}"))
+    beds.append(sw.Horizon([(0, 1300), at(1300)], [at(1300), (WIDTH, 1300)], name="below"))
+    faults = [sw.Fault([at(0.0), at(DEPTH)], name="main"), sw.Fault([start, meeting], name="antithetic")]
+    report = sw.Restoration(SECTION, spacing=100).unfault(faults, beds).stages[-1].report
+    assert report.converged
+    assert report.iterations <= 12
