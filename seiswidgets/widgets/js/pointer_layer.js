@@ -20,8 +20,8 @@ import { keepTraitsLocal } from "./shared/local_traits.js";
  * @returns {() => void} stops it
  */
 function observe(model, view, throttles) {
-  /** @param {{ kind: string, to: keyof typeof throttles }} message */
-  const receive = ({ kind, to }) => kind === "answer" && throttles[to]?.answer();
+  /** @param {{ kind: string, to: keyof typeof throttles, took: number }} message */
+  const receive = ({ kind, to, took }) => kind === "answer" && throttles[to]?.answer(took);
   /** @type {[string, (...args: any[]) => void][]} */
   const handlers = [
     ...Object.entries(PARTS_BY_TRAIT).map(

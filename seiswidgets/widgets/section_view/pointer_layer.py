@@ -1,5 +1,6 @@
 """The layer on top of a pane: it owns all events, and draws axes, lines, marks, mesh and cursors in the browser."""
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -11,7 +12,7 @@ from seiswidgets.interaction.messages import PointerMessage
 from seiswidgets.widgets.assets import asset
 from seiswidgets.widgets.section_view.live_picture import LivePicture
 
-ANSWERED = ("drag", "hover", "wheel", "pinch")  # the browser sends the next of these once the last is answered
+ANSWERED = ("drag", "hover", "wheel", "pinch")  # the browser waits for the answer before it sends more of a kind
 
 
 class PointerLayer(anywidget.AnyWidget):
@@ -83,11 +84,13 @@ class PointerLayer(anywidget.AnyWidget):
         self._listeners.register_callback(callback, remove=remove)
 
     def _receive(self, _: object, content: dict[str, Any], buffers: object) -> None:
+        start = time.perf_counter()
         try:
             self._listeners(_message(content))
         finally:
             if content.get("kind") in ANSWERED:
-                self.send({"kind": "answer", "to": content["kind"]})
+                took = round(1000 * (time.perf_counter() - start), 1)
+                self.send({"kind": "answer", "to": content["kind"], "took": took})
 
 
 def _message(content: dict[str, Any]) -> PointerMessage:

@@ -254,17 +254,20 @@ var MessageThrottle = class {
    * @param {number} [options.pause] ms
    * @param {(waiting: any, newest: any) => Message} [options.merge] keeps the newest by default
    * @param {number} [options.batch]
+   * @param {boolean} [options.isPrompt] true to send at once rather than in the next frame
    */
-  constructor(send, { pause = 0, merge = (_, newest) => newest, batch = 1 } = {}) {
+  constructor(send, { pause = 0, merge = (_, newest) => newest, batch = 1, isPrompt = false } = {}) {
     this.send = send;
     this.pause = pause;
     this.merge = merge;
     this.batch = batch;
+    this.isPrompt = isPrompt;
     this.waiting = null;
     this.merged = 0;
     this.addedAt = -Infinity;
     this.sentAt = -Infinity;
-    this.isAnswered = true;
+    this.unanswered = [];
+    this.limit = 1;
     this.isScheduled = false;
   }
   /** @param {Message} message */
@@ -273,6 +276,10 @@ var MessageThrottle = class {
     this.merged += 1;
     this.addedAt = performance.now();
     if (this.isScheduled) return;
+    if (this.isPrompt) {
+      this.trySending();
+      return;
+    }
     this.isScheduled = true;
     requestAnimationFrame(() => this.trySending());
   }
@@ -281,15 +288,21 @@ var MessageThrottle = class {
     this.waiting = null;
     this.merged = 0;
   }
-  /** Note that the kernel has answered the last message. */
-  answer() {
-    this.isAnswered = true;
+  /**
+   * Note that the kernel has answered the oldest message.
+   *
+   * @param {number} [took] ms that it worked on it
+   */
+  answer(took = Number.POSITIVE_INFINITY) {
+    const sentAt = this.unanswered.shift();
+    if (sentAt !== void 0) this.limit = performance.now() - sentAt > 2 * took ? 2 : 1;
     if (!this.isScheduled) this.trySending();
   }
   trySending() {
     const now = performance.now();
     this.isScheduled = false;
-    if (!this.waiting || !this.isAnswered && now - this.sentAt < LOST) return;
+    if (now - this.sentAt >= LOST) this.unanswered = [];
+    if (!this.waiting || this.unanswered.length >= this.limit) return;
     const due = Math.max(this.sentAt + this.pause, this.merged < this.batch ? this.addedAt + STILL : 0);
     if (due - now > 1) {
       this.isScheduled = true;
@@ -298,7 +311,7 @@ var MessageThrottle = class {
     }
     const message = this.waiting;
     this.sentAt = now;
-    this.isAnswered = false;
+    this.unanswered.push(now);
     this.drop();
     this.send(message);
   }
@@ -306,7 +319,7 @@ var MessageThrottle = class {
 function createThrottles(model) {
   const sender = (kind) => (message) => model.send({ kind, ...message });
   return {
-    drag: new MessageThrottle(sender("drag"), { pause: DRAG_PAUSE }),
+    drag: new MessageThrottle(sender("drag"), { pause: DRAG_PAUSE, isPrompt: true }),
     hover: new MessageThrottle(sender("hover"), { pause: HOVER_PAUSE, batch: HOVER_MOVES }),
     wheel: new MessageThrottle(sender("wheel"), {
       merge: (waiting, newest) => ({ ...newest, steps: waiting.steps + newest.steps })
@@ -1572,7 +1585,7 @@ function keepTraitsLocal(model, names) {
 
 // pointer_layer.js
 function observe(model, view, throttles) {
-  const receive = ({ kind, to }) => kind === "answer" && throttles[to]?.answer();
+  const receive = ({ kind, to, took }) => kind === "answer" && throttles[to]?.answer(took);
   const handlers = [
     ...Object.entries(PARTS_BY_TRAIT2).map(
       ([trait, parts]) => (

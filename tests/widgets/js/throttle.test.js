@@ -17,11 +17,33 @@ beforeEach(() => {
 });
 afterEach(() => clock.restore());
 
-test("the first message leaves in the next frame", () => {
-  throttles.drag.add({ x: 1 });
+test("the first message leaves in the next frame, and a drag at once", () => {
+  throttles.wheel.add({ steps: 1 });
   assert.deepEqual(sent, []);
   clock.tick(20);
-  assert.deepEqual(sent, [{ kind: "drag", x: 1 }]);
+  throttles.drag.add({ x: 1 });
+  assert.deepEqual(sent, [
+    { kind: "wheel", steps: 1 },
+    { kind: "drag", x: 1 },
+  ]);
+});
+
+test("two messages are on their way if the link takes longer than the kernel", () => {
+  throttles.drag.add({ x: 1 });
+  clock.tick(200);
+  throttles.drag.answer(50); // of 200 ms
+  for (const x of [2, 3, 4]) {
+    throttles.drag.add({ x });
+    clock.tick(60);
+  }
+  assert.deepEqual(
+    sent.map(({ x }) => x),
+    [1, 2, 3],
+  );
+  throttles.drag.answer(170); // of 180 ms
+  throttles.drag.add({ x: 5 });
+  clock.tick(60);
+  assert.equal(sent.length, 3);
 });
 
 test("the next waits for the answer, and only the newest is sent", () => {
@@ -40,7 +62,7 @@ test("an early answer does not shorten the pause", () => {
   clock.tick(20);
   throttles.drag.answer();
   throttles.drag.add({ x: 2 });
-  clock.tick(40);
+  clock.tick(25);
   assert.equal(sent.length, 1);
   clock.tick(15);
   assert.equal(sent.length, 2);
@@ -72,8 +94,8 @@ test("steps of the wheel add up, and pinches multiply", () => {
 });
 
 test("a dropped message is not sent", () => {
-  throttles.drag.add({ x: 1 });
-  throttles.drag.drop();
+  throttles.wheel.add({ steps: 1 });
+  throttles.wheel.drop();
   clock.tick(1000);
   assert.deepEqual(sent, []);
 });
