@@ -1,4 +1,4 @@
-"""What a click or a drag would do at the pointer, in words: the editor's own transition, described."""
+"""The effect of a click or a drag at the pointer, in words: the editor's own transition, described."""
 
 import numpy as np
 

@@ -3,31 +3,7 @@
 Modes are look, fault, horizon and block. In fault and horizon mode, picks of that kind can be changed; in look mode,
 the one that is selected.
 
-=====================  ==============================================================================================
-Click                  fault, horizon: adds a vertex to the draft line, or begins one. Begun while a horizon is
-                       selected, it becomes a further piece of that one. Look: selects. Block: sets the held point;
-                       on the point, removes it
-Click on a line        inserts a vertex, if there is no draft line
-Drag                   moves a vertex; of a cut-off, the end of the piece along the fault. Horizon vertices snap, and
-                       so do ends of faults that come within ten pixels of the border or another fault
-Shift                  while clicking: begins a line whatever lies there. While dragging: no snapping, and off the fault
-Ctrl-click             removes a vertex
-Double-click           finishes the draft line; the ends of a fault snap
-Enter                  at the keyboard cursor: puts a vertex; on the last vertex, or without cursor: finishes. With no
-                       draft line and no cursor: shows the cursor
-Space                  puts a vertex at the keyboard cursor (without one, it is left to the pane, which pans)
-Arrows                 nudge the selected vertex by a trace or sample, Shift: by ten. With none selected, they move the
-                       keyboard cursor by some pixels, Shift: ten times as far, Ctrl: by one trace or sample
-Page Up, Page Down     select the vertex before, after
-Insert, I              insert a vertex after the selected one
-Delete, Backspace      remove the selected vertex; else the last one of the draft line; else the selected piece (the
-                       one clicked, or drawn last); else, in look mode, the selected pick; in block mode, the held point
-Escape                 cancels a drag; else the draft line; else the selection; else goes back to look mode
-L, F, H, B             modes
-Ctrl+Z                 undo, a finished line vertex by vertex; Ctrl+Shift+Z, Ctrl+Y: redo
-=====================  ==============================================================================================
-
-Tab is never consumed, so that it leaves the canvas.
+`gesture_table` lists what each gesture and key does. Tab is never consumed, so that it leaves the canvas.
 """
 
 from collections.abc import Callable
@@ -36,6 +12,7 @@ import numpy as np
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Interpretation
+from seiswidgets.interaction.click_hints import click_hint
 from seiswidgets.interaction.cutoff_handles import CutOffHandle, cutoff_handles
 from seiswidgets.interaction.document import Document, EditHistory, Entry
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Point
@@ -120,6 +97,10 @@ class PickEditor:
                 return self._become(double_click(self.state, gesture, self._tools))
             case Release():
                 return self._handle_release(gesture)
+
+    def click_hint(self, pointer: Move) -> str:
+        """Describe the effect of a click at the pointer."""
+        return click_hint(self.state, pointer, self._tools)
 
     def enter(self, mode: str) -> None:
         """Change the mode; a draft line is finished, or dropped (undo brings it back) if it is a single point."""

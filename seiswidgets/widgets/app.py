@@ -245,8 +245,9 @@ class RestorationApp(WithParts, VBox):
             layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
         )
         self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
-        parts = [self.picker.toolbar, self.status, self.session_bar, self.panes, self.session_bar.news, below]
-        return [*parts, Names(), KeyGuard(self.picker.hotkeys)]
+        above = [self.picker.toolbar, self.picker.help, self.status, self.session_bar]
+        beneath = [self.picker.click_line, self.session_bar.news, below]
+        return [*above, self.panes, *beneath, Names(), KeyGuard(self.picker.hotkeys)]
 
     def _bind(self) -> None:
         workspace, editor = self.workspace, self.picker.editor

@@ -12,16 +12,18 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.section import Section
+from seiswidgets.interaction.click_hints import HELP
 from seiswidgets.interaction.document import Document, Entry
 from seiswidgets.interaction.drawing import Drawing, Point
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES
-from seiswidgets.interaction.gestures import Gesture
+from seiswidgets.interaction.gestures import Gesture, Move
 from seiswidgets.interaction.scene import marks, rubber_band, strokes
 from seiswidgets.interaction.snapping import EVENTS, follow_event, snap_to_event
 from seiswidgets.widgets.binding import bind, bind_control
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.flags import flags
+from seiswidgets.widgets.help import ClickLine, GestureHelp
 from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.jobs import UI_LOCK
 from seiswidgets.widgets.key_guard import KeyGuard
@@ -51,6 +53,7 @@ ACTIONS = {  # icon, action, keys
     "redo": ("repeat", "Redo", "Ctrl+Y"),
     "finish": ("check", "Finish the line", "Enter"),
     "new": ("plus", "Draw the next line as a new horizon", "Escape"),
+    "help": ("question", "All gestures and keys", "?"),
 }
 
 
@@ -60,7 +63,7 @@ class Picker(WithParts, VBox):
     In fault and horizon mode a click adds a vertex, a double click or Enter finishes the line, and Escape drops it;
     vertices and cut-offs can be dragged, and a vertex is removed by Ctrl-click or Delete. All of this works with the
     keyboard too: L, F, H and B choose the mode, Enter shows a cursor, the arrows move it, and Space puts a vertex at
-    it. The module `seiswidgets.interaction.editor` has the table of all gestures.
+    it. "?" shows all gestures.
 
     Parameters
     ----------
@@ -88,6 +91,8 @@ class Picker(WithParts, VBox):
         True during a drag.
     pane : SectionPane
     toolbar : Box
+    help, click_line : GestureHelp, ClickLine
+        All gestures and keys, shown on "?"; and what a click will do.
     list : PicksList
     editor : PickEditor
 
@@ -115,10 +120,14 @@ class Picker(WithParts, VBox):
         self._messages: dict[str, tuple[str, str]] = {}
         self._findings: tuple[Finding, ...] = ()
         self._finding_listeners: list[Callable[[Finding], None]] = []
+        self._hover: Move | None = None  # the pointer's last move over a pane
+        self.help, self.click_line = GestureHelp(), ClickLine(self._click_hint)
         self.list = PicksList(self.editor, self.refresh)
         self.buttons = {name: self._button(name) for name in ACTIONS}
         self.toolbar = self._make_toolbar()
-        super().__init__([KeyGuard(self.hotkeys), self.toolbar, self.pane, self.list])
+        parts = [self.toolbar, self.help, self.pane, self.click_line, self.list]
+        super().__init__([KeyGuard(self.hotkeys), *parts])
+        self.add_class("seiswidgets-picker")
         keep_order(self)
         self._bind()
         self.attach(self.pane)
@@ -135,9 +144,9 @@ class Picker(WithParts, VBox):
 
     @property
     def hotkeys(self) -> dict[str, Callable[[], None]]:
-        """Actions of the keys that undo and redo, wherever the focus is."""
+        """Actions of the keys that undo, redo and show the help, wherever the focus is."""
         undo, redo = partial(self._act, "undo"), partial(self._act, "redo")
-        return {"Ctrl+z": undo, "Ctrl+Z": redo, "Ctrl+y": redo, "Ctrl+Y": redo}
+        return {"Ctrl+z": undo, "Ctrl+Z": redo, "Ctrl+y": redo, "Ctrl+Y": redo, "?": self.help.toggle}
 
     def attach(self, pane: SectionPane) -> None:
         """Draw in another pane too, by its own projection."""
@@ -213,6 +222,7 @@ class Picker(WithParts, VBox):
         self._show_history("redo", history.next_redo)
         self.buttons["finish"].disabled = state.drawing.draft is None
         self.mode, self.dragging = state.mode, state.drag is not None
+        self.click_line.update()
 
     def _enter(self, mode: str) -> None:
         self.editor.enter(mode)
@@ -239,10 +249,17 @@ class Picker(WithParts, VBox):
 
     def _handle(self, gesture: Gesture) -> bool:
         before = self.editor.state
+        if isinstance(gesture, Move):
+            self._hover = gesture
         consumed = self.editor.handle(gesture)
         if self.editor.state != before:
             self.refresh()
+        elif isinstance(gesture, Move):
+            self.click_line.update()
         return consumed
+
+    def _click_hint(self) -> str:
+        return self.editor.click_hint(self._hover) if self._hover else f"{MODE_LABELS[self.mode][1]}. {HELP}."
 
     @validate("interpretation")
     def _valid_interpretation(self, proposal: Bunch) -> Interpretation:
@@ -304,6 +321,7 @@ class Picker(WithParts, VBox):
     def _act(self, name: str) -> None:
         editor = self.editor
         actions = {"undo": editor.undo, "redo": editor.redo, "finish": editor.finish, "new": self._begin_horizon}
+        actions["help"] = self.help.toggle
         with UI_LOCK:
             actions[name]()
             self.refresh()

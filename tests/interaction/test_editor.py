@@ -1,7 +1,5 @@
 """Each gesture does what it says, any number of them in any order does no harm, and all of it can be undone."""
 
-import inspect
-
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, event, given, settings
@@ -10,11 +8,11 @@ from shapely import LineString, Point
 
 import seiswidgets as sw
 from seiswidgets.geology.cutoffs import heave, throw
-from seiswidgets.interaction import editor as module
 from seiswidgets.interaction.document import Document, EditHistory
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import MODES
+from seiswidgets.interaction.gesture_table import GESTURES
 from seiswidgets.interaction.gestures import DoubleClick, Key, Move, Press, Release
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.scene import marks
@@ -499,8 +497,43 @@ def test_tab_and_other_keys_are_left_alone(drawn):
 
 
 def test_the_table_names_every_key():
+    table = str(GESTURES)
     for word in ("Enter", "Space", "Arrows", "Page Up", "Insert", "Delete", "Backspace", "Escape", "Ctrl+Z", "Ctrl+Y"):
-        assert word in inspect.getdoc(module)
+        assert word in table
+
+
+@pytest.mark.parametrize(
+    ("mode", "point", "modifiers", "words"),
+    [
+        ("fault", (700.0, 100.0), frozenset(), "Click to begin a fault"),
+        ("fault", FAULT[1], frozenset(), "Drag to move this vertex of F1; Ctrl+click removes it"),
+        ("fault", FAULT[1], CTRL, "Click to remove this vertex"),
+        ("fault", (425.0, 200.0), frozenset(), "Click to insert a vertex into F1"),
+        ("horizon", LEFT[1], frozenset(), "Drag to move this vertex of H1"),
+        ("look", LEFT[1], frozenset(), "Click to select H1"),
+        ("look", (700.0, 100.0), frozenset(), "Drag to pan"),
+        ("block", (700.0, 100.0), frozenset(), "Click to hold this block"),
+        ("block", (100.0, 100.0), frozenset(), "Click to release the block"),
+    ],
+)
+def test_the_hint_says_what_the_click_does_and_changes_nothing(drawn, mode, point, modifiers, words):
+    drawn.enter(mode)
+    before = drawn.state
+    assert drawn.click_hint(Move(point, tuple(VIEW.to_pixels(point)), PLAIN, modifiers)).startswith(words)
+    assert drawn.state is before or drawn.state == before
+
+
+def test_the_hint_follows_the_line_that_is_drawn(drawn):
+    def hint(point):
+        return drawn.click_hint(Move(point, tuple(VIEW.to_pixels(point)), PLAIN))
+
+    drawn.enter("horizon")
+    drawn.select("horizon", "H1")
+    assert hint((600.0, 100.0)).startswith("Click to begin another piece of H1")
+    click(drawn, (600.0, 100.0))
+    assert hint((700.0, 100.0)).startswith("Click to add a vertex; double click or Enter finishes")
+    press(drawn, (600.0, 100.0))
+    assert hint((600.0, 100.0)) == ""
 
 
 # The held block

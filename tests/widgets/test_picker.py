@@ -4,7 +4,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.interaction.overlay import stroke_points
 from seiswidgets.widgets.picker import Picker
-from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release
+from tests.widgets.hands import appear, click, drag_to, draw, keys, press, release, tell
 
 FAULT = [(400.0, 100.0), (450.0, 300.0), (500.0, 500.0)]
 LEFT, RIGHT = [(50.0, 250.0), (250.0, 260.0), (430.0, 220.0)], [(470.0, 380.0), (850.0, 390.0)]
@@ -203,3 +203,24 @@ def test_dots_of_a_dense_line_keep_apart_and_the_chosen_one_is_among_them(sectio
     pixels = picker.pane.view.to_pixels(shown)
     assert len(shown) < 40
     assert sorted(np.hypot(*np.diff(pixels, axis=0).T))[1] >= 10  # but for the chosen one
+
+
+def test_the_line_below_says_what_a_click_will_do(drawn):
+    drawn.mode = "look"
+    assert "click a line to select it" in drawn.click_line.value
+    x, y = drawn.pane.view.to_pixels(FAULT[0]).tolist()
+    tell(drawn.pane, "hover", x=x, y=y)
+    assert "Click to select F1" in drawn.click_line.value
+    drawn.mode = "fault"
+    assert "Drag to move this vertex of F1" in drawn.click_line.value
+
+
+def test_help_is_opened_by_its_key_and_its_button_and_closed_again(drawn):
+    assert not drawn.help.is_open
+    drawn.children[0]._receive(None, {"name": "?"}, [])
+    assert drawn.help.is_open
+    assert "Ctrl+click" in drawn.help.children[2].value
+    drawn.help.children[0]._receive(None, {"name": "Escape"}, [])
+    assert not drawn.help.is_open
+    drawn.buttons["help"].click()
+    assert drawn.help.is_open

@@ -22,8 +22,8 @@ function takeHotkeys(box, getNames, act) {
       const { target, key } = event;
       const withCtrl = event.ctrlKey || event.metaKey;
       const name = (withCtrl ? "Ctrl+" : "") + key;
-      if (event.altKey || !(target instanceof Element) || target.closest(OWN_KEYS) || !getNames().includes(name))
-        return;
+      if (event.altKey || !(target instanceof Element) || !getNames().includes(name)) return;
+      if (withCtrl && target.closest(OWN_KEYS)) return;
       if (target.matches(TEXT)) {
         const isTyped = (
           /** @type {Field} */
