@@ -134,6 +134,11 @@ class RestorationDomain:
         rounded = float(f"{metres / self.section.metres[0]:.2g}")
         return f"{number_text(rounded)} {self.section.x_unit}"
 
+    def area(self, square_metres: float) -> str:
+        """Text for an area of rock, in squares of the section's unit of x."""
+        rounded = float(f"{square_metres / self.section.metres[0] ** 2:.2g}")
+        return f"{number_text(rounded)} {self.section.x_unit}²"
+
     def position(self, point: ArrayLike) -> tuple[float, float]:
         """A point given in metres of rock, in the section's units."""
         x, z = self.section.from_rock(point)

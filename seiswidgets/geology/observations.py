@@ -128,8 +128,8 @@ def _seams(
 def _sides_apart(seam: SeamReport, point: np.ndarray, domain: RestorationDomain) -> Finding:
     text = (
         f"the sides of fault {seam.fault} are up to {domain.length(seam.widest)} apart or overlapping, most of all "
-        f"near {domain.where(point)}, with {seam.gap:.2g} m² of gap and {seam.overlap:.2g} m² of overlap; "
-        "check the shape of the fault there, and the cut-offs on both its sides"
+        f"near {domain.where(point)}, with {domain.area(seam.gap)} of gap and {domain.area(seam.overlap)} of "
+        "overlap; check the shape of the fault there, and the cut-offs on both its sides"
     )
     return Finding("warning", "contact", text, seam.fault, domain.position(point))
 

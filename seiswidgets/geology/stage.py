@@ -213,8 +213,8 @@ class Stage:
             point = WITHIN[which[largest]] @ self.mesh.vertices[self.mesh.triangles[covered[largest]]]
             example, where = f", such as the rock from near {self.domain.where(point)}", self.domain.position(point)
         text = (
-            f"{area:.3g} m² of rock lie on other rock{example}: the picture shows only one of the two there. Check the "
-            "throws and the shape of the faults nearby, or undo the faults one after the other"
+            f"{self.domain.area(area)} of rock lie on other rock{example}: the picture shows only one of the two. "
+            "Check the throws and the shape of the faults nearby, or undo the faults one after the other"
         )
         return (Finding("problem", "overlap", text, where=where),)
 
@@ -226,7 +226,7 @@ class Stage:
         largest = max(holes, key=lambda hole: hole.area).representative_point().coords[0]
         point = self.mesh.vertices[np.argmin(np.hypot(*(self.vertices - largest).T))]
         text = (
-            f"{area:.3g} m² of gaps have opened between the blocks, the largest next to the rock from near "
+            f"{self.domain.area(area)} of gaps have opened between the blocks, the largest next to the rock from near "
             f"{self.domain.where(point)}; check the throws and the shape of the faults there"
         )
         return (Finding("warning", "gap", text, where=self.domain.position(point)),)
