@@ -168,8 +168,11 @@ class Restoration:
         x_min, x_max, *_ = self.original.extent
         ends = [(x_min, regional), (x_max, regional)] if isinstance(regional, int | float) else regional
         pinned, level = (
-            np.array([carried_point(self.original, self.stages, point) for point in points or ()]).reshape(-1, 2)
-            for points in (validation.held_points("pins", pins), validation.held_points("regional", ends or ()))
+            np.array([carried_point(self.original, self.stages, point, name) for point in held]).reshape(-1, 2)
+            for name, held in (
+                ("a pin", validation.held_points("pins", pins)),
+                ("the regional level", validation.held_points("regional", ends or ())),
+            )
         )
         return Holds(None if fixed is None else carried_point(self.original, self.stages, fixed), pinned, level)
 

@@ -87,13 +87,13 @@ def _outside(original: Section, what: str, pick: Fault | Horizon) -> PickError:
     )
 
 
-def carried_point(original: Section, stages: Sequence[Stage], fixed: ArrayLike) -> np.ndarray:
-    """The held point after some stages, shape (2,)."""
+def carried_point(original: Section, stages: Sequence[Stage], held: ArrayLike, name: str = "fixed") -> np.ndarray:
+    """A held point after some stages, shape (2,); ``name`` names it in errors."""
     try:
-        point = validation.as_points(fixed).reshape(2)
+        point = validation.as_points(held).reshape(2)
     except ValueError:
-        raise PickError(f"fixed must be one point (x, z), but is {fixed!r}") from None
-    point = validation.point_in_section(original, point, "fixed")[None]
+        raise PickError(f"{name} must be one point (x, z), but is {held!r}") from None
+    point = validation.point_in_section(original, point, name)[None]
     for stage in stages:
         point = stage.map.forward(point)
     return point[0]

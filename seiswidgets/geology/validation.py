@@ -99,6 +99,7 @@ def point_in_section(section: Section, point: np.ndarray, what: str) -> np.ndarr
         raise PickError(
             f"{what} lies outside the section, at ({number_text(x)} {section.x_unit}, {number_text(z)} "
             f"{section.z_unit}); the section reaches from {section.reach}",
+            kind="held outside",
             where=(x, z),
         )
     return section.to_rock(clipped)

@@ -39,7 +39,7 @@ def test_picks_that_are_only_carried_are_not_checked():
 @pytest.mark.parametrize(
     ("plan", "problem"),
     [
-        ({"fixed": (-100.0, 100.0)}, ("problem", "refused", None)),
+        ({"fixed": (-100.0, 100.0)}, ("problem", "held outside", None)),
         ({"steps": (sw.Step("unfault"), sw.Step("flatten", "top"))}, ("problem", "missing", "top")),
         ({"spacing": 0.5}, ("problem", "refused", None)),
     ],

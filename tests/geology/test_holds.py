@@ -81,7 +81,7 @@ def test_held_points_that_cannot_be_used():
         unfaulted(0.0, pins="left")
     with pytest.raises(sw.PickError, match="regional must be points"):
         sw.Plan(regional=[(0.0, np.nan)])
-    with pytest.raises(sw.PickError, match="lies outside the section"):
+    with pytest.raises(sw.PickError, match="a pin lies outside the section"):
         unfaulted(0.0, pins=[(-500.0, 100.0)])
     with pytest.raises(sw.SettingError, match="pins and a regional level need solver='gauss-newton'"):
         unfaulted(0.0, regional=500.0, solver="fixed-point")

@@ -84,14 +84,13 @@ def test_a_drawing_in_progress_is_not_scolded_but_told_what_is_next(new_app, cas
 
 
 def test_a_hold_that_cannot_be_explains_itself_in_the_apps_words_at_its_pin(new_app):
-    blind = sw.synthetic.blind_fault()
-    app = new_app(blind.interpretation, section=blind.section)
-    x, z = (float(value) for value in np.mean([blind.section.extent[:2], blind.section.extent[2:]], axis=1))
-    app.fixed = (x, z)
+    case = sw.synthetic.planar_fault()
+    app = new_app(case.interpretation, section=case.section)
+    outside = (case.section.extent[1] + 100.0, 500.0)
+    app.workspace.change_plan("pin", pins=(outside,))
     app.restore()
     assert app.wait(LONG)
-    assert app.status.text.startswith("Hold: no block is cut off")
-    assert "fixed" not in app.status.text
+    assert app.status.text.startswith("Hold: the pin lies outside the rock")
     assert app.panes.restored.badge.text == "not restored"
     marks = {mark["kind"]: mark for mark in app.panes.original.layer.marks}
     flag, pin = marks["finding"], marks["held"]
