@@ -56,7 +56,7 @@ def _finding(name: str, extensions: Sequence[Extension], domain: RestorationDoma
     parts = [f"by {domain.length(gap)} to {fault} near {domain.where(at)}" for gap, fault, at, _ in extensions[:NAMED]]
     if len(extensions) > NAMED:
         parts.append(f"at {len(extensions) - NAMED} more ends by less")
-    text = f"horizon {name} was extended {', '.join(parts)}; draw it up to the fault where that is not so"
+    text = f"horizon {name} was extended {', '.join(parts)}; check that it runs on so, or draw it up to the fault"
     turned = any(turn > TURN and gap > domain.cell[0] for gap, *_, turn in extensions)
     severity = "warning" if turned or gap > FAR * domain.cell[0] else "note"
     return Finding(severity, "extension", text, name, domain.position(point))

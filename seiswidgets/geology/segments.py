@@ -6,7 +6,7 @@ It is 20 traces long at most, less where it is steep, and no longer than the pie
 samples; and it is made only where another piece reaches the fault from its other side.
 """
 
-from collections.abc import Container, Sequence
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -113,8 +113,8 @@ def split_at_faults(
         return [HorizonSegment(line, (None, None), piece)]
     inner: list[tuple[float, int]] = []
     for at, fault in crossings:
-        if inner and at - inner[-1][0] <= 1e-9 * length:  # on a stretch that faults share: the first one counts
-            inner[-1] = at, min(fault, inner[-1][1])
+        if inner and at - inner[-1][0] <= 1e-9 * length:  # on a stretch that faults share: one counts
+            inner[-1] = at, min(fault, inner[-1][1], key=_through_first(faults, line.interpolate(at)))
         elif 1e-9 * length < at < (1 - 1e-9) * length:
             inner.append((at, fault))
     stops: list[tuple[float, int | None]] = [(0.0, None), *inner, (length, None)]
@@ -200,8 +200,14 @@ def nearest_fault_ahead(
     if not hits:
         return None
     first, *_ = min(hits)
-    fault, gap, point = min((fault, gap, point) for gap, fault, point in hits if gap <= first + touch)
+    tied = [hit for hit in hits if hit[0] <= first + touch]
+    gap, fault, point = min(tied, key=lambda hit: _through_first(faults, Point(hit[2]))(hit[1]))
     return _end(line, which, fault, faults[fault], point, gap if gap > touch else 0.0)
+
+
+def _through_first(faults: Sequence[LineString], point: Point) -> Callable[[int], tuple[bool, int]]:
+    """Key that sorts the faults at a point: those that run through it before those that end at it."""
+    return lambda fault: (faults[fault].boundary.dwithin(point, 1e-6 * faults[fault].length), fault)
 
 
 def _within_reach(faults: Sequence[LineString], geometry: BaseGeometry, reach: float) -> list[int]:

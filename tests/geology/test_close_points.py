@@ -132,8 +132,8 @@ def test_a_horizon_that_passes_a_tip_nearly(off):
     assert report.iterations <= 10
 
 
-@pytest.mark.parametrize("off", [-3.0, -0.1, 0.1, 3.0])
-def test_a_fault_that_ends_beside_a_cut_off_of_another(off):
+def graben(off):
+    """An antithetic fault that ends on the main one, at some distance from a cut-off there."""
     sunk, meeting = 40.0, at(1300.0 + off)
     start = np.array([3100.0, 0.0])
     down = (meeting - start) / np.hypot(*(meeting - start))
@@ -142,7 +142,22 @@ def test_a_fault_that_ends_beside_a_cut_off_of_another(off):
         inner = [at(z + sunk), start + (z + sunk) / down[1] * down]
         beds.append(sw.Horizon([(0, z), at(z)], inner, [start + z / down[1] * down, (WIDTH, z)], name=f"H{z}"))
     beds.append(sw.Horizon([(0, 1300), at(1300)], [at(1300), (WIDTH, 1300)], name="below"))
-    faults = [sw.Fault([at(0.0), at(DEPTH)], name="main"), sw.Fault([start, meeting], name="antithetic")]
-    report = sw.Restoration(SECTION, spacing=100).unfault(faults, beds).stages[-1].report
+    return [sw.Fault([at(0.0), at(DEPTH)], name="main"), sw.Fault([start, meeting], name="antithetic")], beds
+
+
+@pytest.mark.parametrize("off", [-3.0, -0.1, 0.1, 3.0])
+def test_a_fault_that_ends_beside_a_cut_off_of_another(off):
+    report = sw.Restoration(SECTION, spacing=100).unfault(*graben(off)).stages[-1].report
     assert report.converged
     assert report.iterations <= 12
+
+
+def test_the_mesh_depends_neither_on_the_order_of_picks_nor_on_their_directions():
+    faults, beds = graben(0.5)
+    turned = [sw.Fault(fault.points[::-1], name=fault.name) for fault in faults[::-1]]
+    mirrored = [sw.Horizon(*(piece[::-1] for piece in bed.pieces[::-1]), name=bed.name) for bed in beds[::-1]]
+    start = sw.Restoration(SECTION, spacing=100)
+    one, other = (start.unfault(*picks).stages[-1] for picks in ((faults, beds), (turned, mirrored)))
+    found, again = (np.unique(np.round(stage.mesh_setup.mesh.vertices, 5), axis=0) for stage in (one, other))
+    np.testing.assert_array_equal(again, found)
+    assert one.report.iterations == other.report.iterations

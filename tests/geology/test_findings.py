@@ -248,7 +248,7 @@ def test_a_severity_that_there_is_not():
         Finding("fatal", "datum", "")
 
 
-@pytest.mark.parametrize(("top", "angle"), [(160.0, 26), (0.0, None)])
+@pytest.mark.parametrize(("top", "angle"), [(160.0, 25), (0.0, None)])
 def test_a_section_that_folds_about_the_tip_of_a_fault(top, angle):
     """A long section with a large throw below a young cover: the limbs turn until the fault's lower end matches."""
     section = sw.Section(np.zeros((241, 801), np.float32), 25.0, 4.0)
