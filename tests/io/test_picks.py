@@ -437,9 +437,9 @@ def test_what_cannot_be_read_is_an_error_that_says_where(tmp_path, name, text, m
     [
         ("opendtect-horizons", "", "holds no picks"),
         ("opendtect-horizons", "1 2 3\n", "row 1 must be names in quotes .* 0 names and 3 values"),
-        ("opendtect-horizons", "a 2 3 4 5\n", "row 1: X must be a number .* 'a'"),
+        ("opendtect-horizons", "a b 3 4 5\n", "row 1: x must be a number .* 'b'"),
         ("opendtect-faults", "1\t2\t3\t4\n", "row 1 must be an optional fault name .* with both indices"),
-        ("charisma-horizons", "INLINE : 1 2 3 4 5\n", "row 1 must be INLINE : number XLINE : number X Y Z"),
+        ("charisma-horizons", "INLINE : 1 2 3 4\n", "row 1 must be INLINE : number XLINE : number X Y Z"),
         ("charisma-faults", "INLINE- 1 2 3 4 5 six\n", "row 1 must be INLINE- inline crossline X Y Z"),
         ("cps3-faults", "->\n1 2\n", "row 2 must be X, Y and Z, but has 2 values"),
     ],
@@ -474,7 +474,7 @@ def test_the_format_is_told_by_the_suffix_or_asked_for(tmp_path):
         SettingError, match=r"its suffix does not tell its format; give format=, one of geojson, csv, opendtect"
     ):
         sw.read_picks(path, DEPTH)
-    with pytest.raises(SettingError, match="format= must be one of geojson, csv, but is 'charisma-faults'"):
+    with pytest.raises(SettingError, match=r"format= must be one of geojson, csv, .*, but is 'charisma-faults'"):
         sw.write_picks(SIMPLE, path, DEPTH, format="charisma-faults")
 
 

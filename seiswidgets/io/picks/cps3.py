@@ -6,29 +6,28 @@ from pathlib import Path
 import numpy as np
 
 from seiswidgets.errors import DataError
-from seiswidgets.io.document import read_text
 from seiswidgets.io.picks.lines import FileLines, parse_depth, parse_number
 from seiswidgets.io.picks.map_points import ExportOptions, MapPoint, data_rows, fault_lines, horizon_lines
 
 HEADER = ("FF", "FS")  # FFASCI, FFATTR, ...: how the file was written; nothing about positions
 
 
-def read_horizons(path: Path, options: ExportOptions) -> FileLines:
+def read_horizons(path: Path, text: str, options: ExportOptions) -> FileLines:
     """Read a horizon from "CPS-3 lines": a row ``->`` before each piece, then one row X Y Z per point.
 
     Rows that begin with FF or FS are headers. The horizon takes the file's name; text after the arrow is ignored.
     """
-    return FileLines(horizon_lines(path, _map_points(path), options))
+    return FileLines(horizon_lines(path, _map_points(path, text), options))
 
 
-def read_faults(path: Path, options: ExportOptions) -> FileLines:
+def read_faults(path: Path, text: str, options: ExportOptions) -> FileLines:
     """Read faults from "CPS-3 lines": each piece is a fault with the file's name, numbered if there are several."""
-    return FileLines(fault_lines(path, _map_points(path), options))
+    return FileLines(fault_lines(path, _map_points(path, text), options))
 
 
-def _map_points(path: Path) -> Iterator[MapPoint]:
+def _map_points(path: Path, text: str) -> Iterator[MapPoint]:
     piece = 0
-    for location, row in data_rows(read_text(path)):
+    for location, row in data_rows(text):
         if row.lstrip().startswith("->"):
             piece += 1
         elif not row.lstrip().startswith(HEADER):

@@ -10,11 +10,11 @@ import numpy as np
 
 from seiswidgets.errors import DataError, Keyword, SettingError
 from seiswidgets.geology.picks import Interpretation
-from seiswidgets.geology.section import METRES, Section
+from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import checked_kind
-from seiswidgets.io.document import check_file_size, shortened
+from seiswidgets.io.document import check_file_size, read_text, shortened
 from seiswidgets.io.files import user_path, write_file
-from seiswidgets.io.picks import charisma, cps3, geojson, opendtect, table
+from seiswidgets.io.picks import charisma, cps3, export_writing, geojson, iesx, named_columns, opendtect, table
 from seiswidgets.io.picks.lines import (
     FileLines,
     PickLine,
@@ -23,6 +23,7 @@ from seiswidgets.io.picks.lines import (
     without_single_points,
 )
 from seiswidgets.io.picks.map_points import Along, ExportOptions
+from seiswidgets.io.picks.recognition import refuse_other_formats
 from seiswidgets.signatures import strict_keywords
 
 
@@ -41,6 +42,21 @@ EXPORTS = {
     "charisma-faults": charisma.read_faults,
     "cps3-horizons": cps3.read_horizons,
     "cps3-faults": cps3.read_faults,
+    "iesx-horizons": iesx.read_horizons,
+    "iesx-faults": iesx.read_faults,
+    "earthvision-horizons": named_columns.read_horizons,
+    "petrel-points": named_columns.read_petrel_points,
+    "kingdom-horizons": named_columns.read_horizons,
+    "kingdom-faults": named_columns.read_faults,
+    "geographix-horizons": named_columns.read_horizons,
+    "geographix-faults": named_columns.read_faults,
+    "dug-horizons": named_columns.read_dug_horizons,
+    "dug-faults": named_columns.read_dug_faults,
+}
+WRITERS = {
+    "opendtect-horizons": export_writing.opendtect_horizons,
+    "opendtect-faults": export_writing.opendtect_faults,
+    "petrel-points": export_writing.petrel_points,
 }
 SPOT = 1e-3  # of a section's width and height: picks no larger than this are in another unit
 SUFFIXES = {".geojson": "geojson", ".json": "geojson", ".csv": "csv"}
@@ -67,8 +83,10 @@ def read_picks(
         The section that they were picked on.
     format : str, optional
         "geojson" or "csv", recognised by the suffix if left out; or an export of another program: "opendtect-horizons",
-        "opendtect-faults", "charisma-horizons", "charisma-faults" (both of Petrel too), "cps3-horizons" or
-        "cps3-faults". The docs list the columns of each.
+        "opendtect-faults", "charisma-horizons", "charisma-faults", "iesx-horizons", "iesx-faults", "cps3-horizons",
+        "cps3-faults", "earthvision-horizons", "petrel-points" (Petrel writes all of these), "kingdom-horizons",
+        "kingdom-faults", "geographix-horizons", "geographix-faults", "dug-horizons" or "dug-faults". The docs list the
+        columns of each.
     x_unit, z_unit : str, optional
         Units of the file, as for a Section; needed if it does not state them.
     z_up : bool
@@ -78,7 +96,7 @@ def read_picks(
         a list of the line's own map coordinates [(X, Y), ...], from the section's first trace on, takes the distance
         along it; a function of three arrays, X, Y and the trace number, returns x.
     line : str, optional
-        For exports of several seismic lines: the one to take. For Charisma, "inline 362" or "xline 800".
+        For exports of several seismic lines: the one to take; of a 3-D survey, "inline 362" or "xline 800".
 
     Raises
     ------
@@ -101,9 +119,7 @@ def read_picks(
         _refuse_export_options(format_name, along, line)
         file_lines = OWN_FORMATS[format_name].read(path)
     else:
-        section_metres = METRES[section.x_unit]
-        x0 = section.x0 * section_metres / METRES.get(x_unit or section.x_unit, section_metres)  # in the file's unit
-        file_lines = EXPORTS[format_name](path, ExportOptions(line, along, x0))
+        file_lines = _read_export(path, format_name, ExportOptions(line, along))
         file_lines = replace(file_lines, lines=without_single_points(path, file_lines.lines))
         if not z_up:
             _check_sign(path, file_lines.lines, section)
@@ -114,6 +130,8 @@ def read_picks(
         _agreed_unit(path, "z_unit", file_lines.z_unit, z_unit),
     )
     lines = in_section_units(path, file_lines, section) if file_lines.lines else ()
+    if not (along is None or isinstance(along, str) or callable(along)):  # distances from the first trace
+        lines = tuple(replace(each, points=tuple((section.x0 + x, z) for x, z in each.points)) for each in lines)
     if format_name == "geojson" and not states_units:
         _check_degrees(path, lines, section)
     return build_interpretation(path, lines)
@@ -126,8 +144,14 @@ def write_picks(
     section: Section,
     *,
     format: str | None = None,  # noqa: A002
+    along: Along | None = None,
+    line: str | None = None,
 ) -> None:
-    """Write faults and horizons to a file that states their units; `read_picks` returns exactly the same numbers.
+    """Write faults and horizons to a file.
+
+    GeoJSON and CSV state their units, and `read_picks` returns exactly the same numbers. The formats of other programs
+    have positions on a map: OpendTect's horizons are sampled at the traces, and its files hold either horizons or
+    faults; Petrel's points hold both, with Z negative downwards (give ``z_up=True`` to read them again).
 
     Parameters
     ----------
@@ -136,8 +160,13 @@ def write_picks(
         An existing file is replaced once the new one is complete.
     section : Section
         The section that they were picked on, which has the units.
-    format : {"geojson", "csv"}, optional
-        Chosen by the suffix if left out.
+    format : {"geojson", "csv", "opendtect-horizons", "opendtect-faults", "petrel-points"}, optional
+        GeoJSON and CSV are chosen by the suffix if it is left out.
+    along : optional
+        For other programs: "x" or "y" if the section runs along that axis of the map, or the line's own map coordinates
+        [(X, Y), ...], from the section's first trace on, in its unit of x.
+    line : str, optional
+        For OpendTect: name of the seismic line; by default the section's name.
 
     Raises
     ------
@@ -149,8 +178,13 @@ def write_picks(
     path = user_path(path)
     checked_kind(interpretation, Interpretation, "interpretation")
     checked_kind(section, Section, "section")
-    pick_format = OWN_FORMATS[_checked_format(path, format, tuple(OWN_FORMATS))]
-    text = pick_format.as_text(interpretation, section.x_unit, section.z_unit)
+    format_name = _checked_format(path, format, (*OWN_FORMATS, *WRITERS))
+    if format_name in WRITERS:
+        route = export_writing.ExportRoute(path, section, along, line or section.name or "line")
+        text = WRITERS[format_name](interpretation, route)
+    else:
+        _refuse_export_options(format_name, along, line)
+        text = OWN_FORMATS[format_name].as_text(interpretation, section.x_unit, section.z_unit)
     try:
         content = text.encode()
     except UnicodeEncodeError as error:
@@ -159,6 +193,14 @@ def write_picks(
         ) from None
     check_file_size(path, content)
     write_file(path, content)
+
+
+def _read_export(path: Path, format_name: str, options: ExportOptions) -> FileLines:
+    """Read an export, unless it shows the marks of another format."""
+    text = read_text(path)
+    family, _, kind = format_name.partition("-")
+    refuse_other_formats(path, text, family, kind, tuple(EXPORTS))
+    return EXPORTS[format_name](path, text, options)
 
 
 def _checked_format(path: Path, given: str | None, known: tuple[str, ...]) -> str:

@@ -1,5 +1,6 @@
 """Common parts of other programs' exports: points on a map, from one seismic line or from several."""
 
+import re
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -17,6 +18,8 @@ from seiswidgets.io.document import MOST_POINTS, shortened, text_lines
 from seiswidgets.io.picks.lines import PickLine
 
 MOST_BESIDE = 0.01  # of the line's length: distance of a pick from it
+NUMBERED = re.compile(r"(inline|xline|column|row) \d")  # lines of a 3-D survey
+LONGEST_ROW = 1000  # characters
 MOST_LISTED = 6  # seismic lines that a message lists
 
 MapFunction = Callable[[np.ndarray, np.ndarray, np.ndarray], object]
@@ -57,12 +60,15 @@ class ExportOptions:
 
     line: str | None
     along: Along | None
-    x0: float
 
 
 def data_rows(text: str) -> Iterator[tuple[str, str]]:
-    """Location and content of the rows that are neither blank nor a comment."""
-    for count, row in enumerate(text_lines(text), 1):
+    """Location and content of the rows that are neither blank nor a comment.
+
+    A row is cut off where it is longer than any row of picks, so that it is refused without taking long.
+    """
+    for count, long_row in enumerate(text_lines(text), 1):
+        row = long_row[:LONGEST_ROW]
         if row.strip() and not row.lstrip().startswith(("#", "!")):
             yield f"row {count}", row
 
@@ -100,7 +106,8 @@ def _on_one_line(path: Path, points: Iterable[MapPoint], line: str | None) -> tu
         known.update(dict.fromkeys(point.traces) if len(known) < MOST_LISTED else {})
         shared = list(point.traces) if shared is None else [name for name in shared if name in point.traces]
         if line is None and not shared:
-            raise DataError(f"{path} holds picks on several seismic lines: {_listed(known)}; choose one with ", LINE)
+            what = "a 3-D horizon or 3-D faults, on" if any(map(NUMBERED.match, known)) else "picks on"
+            raise DataError(f"{path} holds {what} several seismic lines: {_listed(known)}; choose one with ", LINE)
         if line is None or line in point.traces:
             kept.append(point)
         if len(kept) > MOST_POINTS:
@@ -157,11 +164,17 @@ def _positions_along(path: Path, points: list[MapPoint], seismic_line: str, opti
             " how they lie along the section: 'x', 'y', the line's own map coordinates [(X, Y), ...], or a function of "
             "X, Y and the trace number",
         )
+    if not callable(along) and np.isnan(x).any():
+        raise DataError(
+            f"{path} gives no X and Y, only numbers of lines and traces; give ",
+            ALONG,
+            " as a function of X, Y and the trace number, such as lambda X, Y, trace: 25.0 * (trace - 300)",
+        )
     if isinstance(along, str) and along in ("x", "y"):
         return x if along == "x" else y
     if callable(along):
         return _positions_by_function(along, x, y, traces)
-    return options.x0 + _distances_along(path, points, np.column_stack([x, y]), along)
+    return _distances_along(path, points, np.column_stack([x, y]), along)
 
 
 def _positions_by_function(along: MapFunction, x: np.ndarray, y: np.ndarray, traces: np.ndarray) -> np.ndarray:
@@ -182,7 +195,7 @@ def _positions_by_function(along: MapFunction, x: np.ndarray, y: np.ndarray, tra
 
 def _distances_along(path: Path, points: list[MapPoint], on_map: np.ndarray, along: object) -> np.ndarray:
     """Distances of map points along a line, from its first point."""
-    line = _line_on_map(along)
+    line = shapely.LineString(line_coordinates(along))
     shapes = shapely.points(on_map)
     beside = shapely.distance(shapes, line)
     if beside.max() > MOST_BESIDE * line.length:
@@ -197,7 +210,8 @@ def _distances_along(path: Path, points: list[MapPoint], on_map: np.ndarray, alo
     return shapely.line_locate_point(line, shapes)
 
 
-def _line_on_map(along: object) -> shapely.LineString:
+def line_coordinates(along: object) -> np.ndarray:
+    """Map coordinates of a line, shape (m, 2); DataError if they are none."""
     try:
         coordinates = np.array(along, float)
         line = shapely.LineString(coordinates.reshape(len(coordinates), 2))
@@ -205,4 +219,4 @@ def _line_on_map(along: object) -> shapely.LineString:
         line = shapely.LineString()
     if not (line.length > 0 and np.isfinite(line.length)):
         raise DataError(ALONG, " must be 'x', 'y', a function, or a list of two or more points (X, Y) on the map")
-    return line
+    return shapely.get_coordinates(shapely.remove_repeated_points(line))

@@ -26,10 +26,13 @@ from seiswidgets.widgets.workspace import Workspace
 
 BY_SUFFIX = "by the suffix: GeoJSON or CSV"
 UNCHOSEN = ""  # not None, for which ipywidgets shows an empty field
-STATED, NOT_STATED = "as in the file", "choose: not in the file"
+STATED, IF_STATED, NOT_STATED = "as in the file", "as in the file, if stated", "choose: not in the file"
+KINDS = ("horizons", "faults")  # of exports
 UNITS_STATED = {  # units of x and z, by format
     UNCHOSEN: (STATED, STATED),
-    "opendtect-horizons": (NOT_STATED, "as in the file, if stated"),
+    **dict.fromkeys(("iesx-horizons", "iesx-faults", "petrel-points"), (IF_STATED, IF_STATED)),
+    **{f"{family}-horizons": (NOT_STATED, IF_STATED) for family in ("opendtect", "earthvision", "dug")},
+    **{f"{family}-{kind}": (NOT_STATED, IF_STATED) for family in ("kingdom", "geographix") for kind in KINDS},
 }
 POINTS, SEGY = "points", "segy"
 ALONG = {
