@@ -15,49 +15,6 @@ from seiswidgets.core.term import MOVING, PaperTerm
 from seiswidgets.core.terms import coordinates, sparse_rows
 
 STAY = 0.1  # of a segment's length
-CORNER = np.radians(10)  # a larger turn of a drawn line is a corner; a smaller one samples a smooth curve
-
-
-@dataclass(frozen=True, eq=False)
-class Bulge:
-    """Offset of the smooth curve through a drawn line's points from the line, as a function of arc length.
-
-    Over each drawn segment the curve is a parabola with the curvature estimated from the turns at the segment's ends.
-    Without it the two sides of a round fault, which are polygons, would mesh like cogs.
-
-    Parameters
-    ----------
-    line : shapely LineString
-        The line as drawn.
-    """
-
-    line: LineString
-
-    @cached_property
-    def _segments(self) -> tuple[np.ndarray, np.ndarray]:
-        """Arc length at each drawn point, and curvature of each drawn segment."""
-        arms = np.diff(shapely.get_coordinates(self.line), axis=0)
-        lengths = np.hypot(*arms.T)
-        turns = np.diff(np.unwrap(np.arctan2(arms[:, 1], arms[:, 0])))
-        bend = np.where(np.abs(turns) > CORNER, np.nan, 2 * turns / (lengths[:-1] + lengths[1:]))
-        ends = np.stack([np.append(np.nan, bend), np.append(bend, np.nan)])
-        known = np.isfinite(ends)
-        curvature = np.where(known, ends, 0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
-        return np.append(0, np.cumsum(lengths)), curvature
-
-    def parabola(self, start: np.ndarray, stop: np.ndarray) -> np.ndarray:
-        """Coefficients of 1, s, s^2 for s from 0 to 1 between two arc lengths in one drawn segment; shape (k, 3)."""
-        arc_lengths, curvature = self._segments
-        segment = np.clip(np.searchsorted(arc_lengths, (start + stop) / 2) - 1, 0, len(curvature) - 1)
-        first, last, half_curvature = arc_lengths[segment], arc_lengths[segment + 1], curvature[segment] / 2
-        span = stop - start
-        return np.column_stack(
-            [
-                -half_curvature * (start - first) * (last - start),
-                -half_curvature * span * (first + last - 2 * start),
-                half_curvature * span**2,
-            ]
-        )
 
 
 def _unchosen() -> np.ndarray:
@@ -68,8 +25,9 @@ def _unchosen() -> np.ndarray:
 class Contact(PaperTerm):
     """Term that keeps each vertex of one side of a fault on the other side (eq. 17).
 
-    The residual is the signed distance from the nearest segment of the other side's polyline, corrected for the bulge
-    of the smooth fault at both points; so sliding along the fault costs nothing. Both sides may move. Beyond an end of
+    The vertices at rest lie on the smooth curve of the fault. The residual is the signed distance from the nearest
+    segment of the other side's polyline, corrected for the bulge of the curve over it; so sliding along the fault costs
+    nothing. Both sides may move. Beyond an end of
     the polyline the fault is unknown, and the residual is zero.
 
     Parameters
@@ -78,10 +36,8 @@ class Contact(PaperTerm):
         The vertices of one side.
     segments : array, shape (s, 2)
         The other side, as directed pairs of vertices, then segments of other faults that continue it.
-    lift : array, shape (p,)
-        Bulge of the smooth fault at each point.
     bulge : array, shape (s, 3)
-        Bulge along each segment, as coefficients of 1, s and s^2.
+        Distance of the smooth fault from each segment at rest, as coefficients of 1, s and s^2.
     count : int
         Number of vertices of the mesh.
     own : int
@@ -95,7 +51,6 @@ class Contact(PaperTerm):
 
     points: np.ndarray
     segments: np.ndarray
-    lift: np.ndarray
     bulge: np.ndarray
     count: int
     own: int
@@ -176,7 +131,7 @@ class Contact(PaperTerm):
 
     def _distance(self, along: np.ndarray, distance: np.ndarray) -> np.ndarray:
         bulge = np.sum(np.vander(along, 3, increasing=True) * self._held_bulge, axis=1)
-        return np.asarray(distance + self.lift[self.partner >= 0] - bulge)
+        return np.asarray(distance - bulge)
 
     @property
     def _held_bulge(self) -> np.ndarray:
@@ -242,21 +197,25 @@ def contacts(
     sides : array, shape (2, s, 2)
         Both copies of the fault's edges, in order.
     line : shapely LineString
-        The fault as drawn.
+        The smooth curve of the fault.
     beyond : pair of Continuation
         For points of the first and of the second side.
     """
-    arc_lengths = shapely.line_locate_point(line, shapely.points(mesh.vertices[sides]))
-    curve = Bulge(line)
-    bulge = curve.parabola(*arc_lengths[0].T)
+    bulge = _bulge(mesh.vertices[sides[0]], line)
 
     def contact(side: np.ndarray, other: np.ndarray, beyond: Continuation) -> Contact:
-        points, first = np.unique(side, return_index=True)
-        apart = ~np.isin(points, other)  # a tip belongs to both sides
-        arc_length = arc_lengths[0].ravel()[first[apart]]
-        lift = curve.parabola(arc_length, arc_length)[:, 0]
+        points = np.setdiff1d(side, other)  # a tip belongs to both sides
         segments, bulges = np.vstack([other, beyond.segments]), np.vstack([bulge, np.zeros((len(beyond.segments), 3))])
         corners = np.array(beyond.corners, int)
-        return Contact(points[apart], segments, lift, bulges, len(mesh.vertices), len(other), corners, weight, name)
+        return Contact(points, segments, bulges, len(mesh.vertices), len(other), corners, weight, name)
 
     return contact(sides[0], sides[1], beyond[0]), contact(sides[1], sides[0], beyond[1])
+
+
+def _bulge(ends: np.ndarray, line: LineString) -> np.ndarray:
+    """Parabolas over chords of a curve, through its point halfway between their ends; (s, 2, 2) to shape (s, 3)."""
+    arc_lengths = shapely.line_locate_point(line, shapely.points(ends)).mean(axis=1)
+    arms, middles = ends[:, 1] - ends[:, 0], ends.mean(axis=1)
+    away = shapely.get_coordinates(shapely.line_interpolate_point(line, arc_lengths)) - middles
+    height = np.sum(away * arms[:, ::-1] * [-1, 1], axis=1) / np.hypot(*arms.T)
+    return np.outer(height, [0, 4, -4])

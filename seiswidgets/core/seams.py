@@ -50,8 +50,8 @@ def weld_seams(mesh: Mesh, vertices: np.ndarray, seams: Sequence[Seam]) -> tuple
 def _positions_on_master(vertices: np.ndarray, slave: np.ndarray, master: np.ndarray) -> Positions:
     """Position of each vertex of the slave along the master, in segments; NaN beyond the master's ends."""
     points = np.setdiff1d(slave, master)
-    unbent = np.zeros(len(points)), np.zeros((len(master), 3))
-    contact = Contact(points, master, *unbent, len(vertices), len(master), np.empty(0, int)).with_contacts(vertices)
+    unbent, none = np.zeros((len(master), 3)), np.empty(0, int)
+    contact = Contact(points, master, unbent, len(vertices), len(master), none).with_contacts(vertices)
     held = contact.partner >= 0
     start, stop = (vertices[master[contact.partner[held], k]] for k in (0, 1))
     along = stop - start

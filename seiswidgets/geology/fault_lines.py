@@ -1,6 +1,6 @@
 """Faults as lines that a mesh can be cut along: tidied, joined to what they reach, and checked against each other."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import shapely
@@ -15,9 +15,9 @@ from seiswidgets.geology.picks import AUTO, EXTEND, TIP, Ends
 from seiswidgets.geology.shared_stretches import follow, shared_stretches
 
 MERGED = 0.01  # of the mesh spacing: points closer than this become one
+CLOSE = 0.05  # of the mesh spacing: a corner or a tip so close to a cut-off or a crossing gives way to it
 FINE = 0.4  # of the mesh spacing: points closer than this, where the fault bends, are averaged
 TOUCHING = 1e-9  # of the mesh spacing: rounding
-CLOSE = 0.05  # of the mesh spacing: a drawn point so close to a cut-off, a crossing or a tip gives way to it
 EDGES = 8  # at least, along each fault
 NEAR = 3.0  # traces and samples: a fault that ends so close to the border or to another fault meets it
 AHEAD = 3.0  # times that, straight ahead
@@ -108,7 +108,7 @@ def _line(name: str, points: np.ndarray, domain: RestorationDomain) -> LineStrin
             where=domain.position(points[0]),
         )
     _check_onward(name, points, domain)
-    return domain.simplify(LineString(points)) if domain.quick else LineString(points)
+    return LineString(points)
 
 
 def _check_onward(name: str, points: np.ndarray, domain: RestorationDomain) -> None:
@@ -203,33 +203,6 @@ def _common_points(line: LineString, other: BaseGeometry) -> list[Point]:
     return [part.centroid for part in shapely.get_parts(line.intersection(other)) if not part.is_empty]
 
 
-def route_through(
-    line: LineString, cutoffs: Iterable[Position], crossings: Iterable[Position], reach: float
-) -> LineString:
-    """Make a fault pass through its cut-offs and crossings instead of through drawn points close to them.
-
-    Two points of a fault that lie much closer than the mesh spacing make slivers, which hold a whole block.
-
-    Parameters
-    ----------
-    line : LineString
-    cutoffs, crossings : lists of points on it
-        Crossings are where other faults cross it, or end.
-    reach : float
-        Distance within which a drawn point is replaced.
-    """
-    points = shapely.get_coordinates(line)
-    targets = np.array([points[0], points[-1], *cutoffs, *crossings], float).reshape(-1, 2)
-    distances = np.hypot(*np.moveaxis(points[:, None] - targets, -1, 0))
-    close = distances.min(axis=1) < reach
-    close[[0, -1]] = False
-    if not close.any():
-        return line
-    points[close] = targets[distances[close].argmin(axis=1)]
-    new = np.append(True, (points[1:] != points[:-1]).any(axis=1))
-    return insert_points(LineString(points[new]), crossings)
-
-
 def settle_tips(
     lines: Mapping[str, LineString],
     beds: Sequence[LineString],
@@ -258,32 +231,12 @@ def settle_tips(
                 near = [Point(cutoff) for other in met for cutoff in cutoffs[other]] if met else beds
                 target = min(near, key=tip.distance, default=tip)
                 if 0 < tip.distance(target) <= CLOSE * domain.spacing:
-                    points[which] = target.interpolate(target.project(tip)).coords[0] if not met else target.coords[0]
+                    end = target.interpolate(target.project(tip)).coords[0] if not met else target.coords[0]
+                    kept = points[np.hypot(*(points - end).T) > CLOSE * domain.spacing]
+                    points = np.insert(kept, 0 if which == 0 else len(kept), end, axis=0)
         settled[name] = LineString(points)
     return settled
 
 
-def fault_crossings(name: str, lines: Mapping[str, LineString]) -> list[Position]:
-    """The points where other faults cross one, or end at it."""
-    line = lines[name]
-    others = [other for key, other in lines.items() if key != name]
-    crossings = [point.coords[0] for other in others for point in _common_points(line, other)]
-    return crossings + [end for other in others for end in (other.coords[0], other.coords[-1]) if _touches(line, end)]
-
-
 def _touches(line: LineString, point: Position) -> bool:
     return bool(line.distance(Point(point)) <= 1e-9 * line.length)
-
-
-def insert_points(line: LineString, points: Iterable[Position]) -> LineString:
-    """Insert points that lie on a line among its own, in order."""
-    vertices = shapely.get_coordinates(line)
-    arc_lengths = [line.project(Point(vertex)) for vertex in vertices]
-    for point in points:
-        arc_length = line.project(Point(point))
-        nearest = int(np.argmin(np.abs(np.array(arc_lengths) - arc_length)))
-        if abs(arc_lengths[nearest] - arc_length) > 1e-9 * line.length:
-            index = int(np.searchsorted(arc_lengths, arc_length))
-            vertices = np.insert(vertices, index, point, axis=0)
-            arc_lengths.insert(index, arc_length)
-    return LineString(vertices)

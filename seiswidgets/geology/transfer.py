@@ -14,7 +14,8 @@ from seiswidgets.errors import PickError
 from seiswidgets.geology import validation
 from seiswidgets.geology.clipping import clip_line
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import resample_fine
+from seiswidgets.geology.fault_curves import fault_curve
+from seiswidgets.geology.fault_lines import merge_close_points, resample_fine
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
@@ -56,7 +57,9 @@ def _carried_parts(
     original: Section, stages: Sequence[Stage], fault: Fault, domain: RestorationDomain | None
 ) -> list[LineString]:
     parts = clip_line(original, fault.points)
-    lines = [LineString(points if domain is None else resample_fine(points, domain)) for points in parts]
+    if domain is not None:
+        parts = [resample_fine(merge_close_points(points, domain.spacing), domain) for points in parts]
+    lines = [fault_curve(points, original.dz * float(original.metres[1])) for points in parts]
     for stage in stages:
         lines = [moved for line in lines for moved in stage.carried_fault(line)]
     return lines

@@ -10,6 +10,7 @@ import numpy as np
 from shapely import LineString
 
 from seiswidgets.core.contact import Contact, contacts
+from seiswidgets.core.curves import move_onto
 from seiswidgets.core.holds import EdgeDirection
 from seiswidgets.core.junctions import Continuation, continuations
 from seiswidgets.core.mesh import Cut, Mesh, edge_keys
@@ -22,16 +23,8 @@ from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import Keyword, PickError, SettingError
 from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import (
-    CLOSE,
-    EDGES,
-    NO_ENDS,
-    fault_crossings,
-    fault_lines,
-    insert_points,
-    route_through,
-    settle_tips,
-)
+from seiswidgets.geology.fault_curves import meshed_parts
+from seiswidgets.geology.fault_lines import NO_ENDS, fault_lines, settle_tips
 from seiswidgets.geology.holds import Holds, PinnedMesh
 from seiswidgets.geology.motion import RockParts
 from seiswidgets.geology.observations import observe_slip
@@ -180,19 +173,21 @@ def _mesh_blocks(
     fingerprint: tuple,
     ends: Mapping[str, Ends],
 ) -> Blocks:
-    lines = fault_lines(faults, domain, ends, boundaries)
-    boundaries = [follow(line, lines.values(), domain.sample) for line in boundaries]
+    curves = fault_lines(faults, domain, ends, boundaries)
+    boundaries = [follow(line, curves.values(), domain.sample) for line in boundaries]
     laid = {name: [domain.on_border(piece) for piece in pieces] for name, pieces in horizons.items()}
-    network = _network(lines, laid, boundaries, domain)
+    network = _network(curves, laid, boundaries, domain)
     cutoffs = network.cutoffs()
     cuts = {name: _drawn_on(name, network.faults, boundaries, ends) for name in network.faults}
-    lines = {name: _meshed_line(line, network.ends_at(name), domain) for name, line in cuts.items()}
+    lines = {name: meshed_parts(name, cuts, network.ends_at(name), domain) for name in cuts}
     bed_lines = {
         name: [domain.simplify(segment.line) for segment in segments] for name, segments in network.horizons.items()
     }
-    meshed = {(FAULT, name): [line] for name, line in lines.items()}
+    meshed = {(FAULT, name): parts for name, parts in lines.items()}
     whole = domain.mesh(meshed | {(HORIZON, name): bed for name, bed in bed_lines.items()})
-    edges = _own_edges({name: _inner_edges(whole, line, name, domain) for name, line in lines.items()})
+    edges = {name: _inner_edges(whole, parts, name, domain) for name, parts in lines.items()}
+    for name, along in edges.items():
+        whole = move_onto(whole, along, cuts[name])
     cut_edges = np.concatenate(list(edges.values()))
     cut = whole.cut(cut_edges)
     beds = {
@@ -208,45 +203,34 @@ def _mesh_blocks(
 
 
 def _network(
-    drawn: dict[str, LineString],
+    curves: dict[str, LineString],
     horizons: Mapping[str, Sequence[LineString]],
     boundaries: Sequence[LineString],
     domain: RestorationDomain,
 ) -> PickNetwork:
-    """Match faults and horizons, without the drawn points of faults that lie close to a cut-off or a horizon."""
-    network = _match(drawn, horizons, boundaries, domain)
+    """Match faults and horizons, and the ends of faults that nearly coincide with them."""
+    network = _match(curves, horizons, boundaries, domain)
     beds = [piece for pieces in horizons.values() for piece in pieces]
-    settled = settle_tips(drawn, beds, {name: network.ends_at(name) for name in drawn}, domain)
-    network = network if settled == drawn else _match(settled, horizons, boundaries, domain)
-    routed = {
-        name: route_through(line, network.ends_at(name), fault_crossings(name, settled), CLOSE * domain.spacing)
-        for name, line in settled.items()
-    }
-    return network if routed == settled else _match(routed, horizons, boundaries, domain)
+    settled = settle_tips(curves, beds, {name: network.ends_at(name) for name in curves}, domain)
+    return network if settled == curves else _match(settled, horizons, boundaries, domain)
 
 
 def _match(
-    drawn: dict[str, LineString],
+    curves: dict[str, LineString],
     horizons: Mapping[str, Sequence[LineString]],
     boundaries: Sequence[LineString],
     domain: RestorationDomain,
 ) -> PickNetwork:
-    faults = [*drawn.values(), *boundaries]
-    segments = {name: horizon_segments(pieces, faults, domain.cell) for name, pieces in horizons.items()}
-    return PickNetwork(drawn, segments, domain.where, domain.position, domain.length)
+    walls = [*curves.values(), *boundaries]
+    segments = {name: horizon_segments(pieces, walls, domain.cell) for name, pieces in horizons.items()}
+    return PickNetwork(curves, segments, domain.where, domain.position, domain.length)
 
 
-def _meshed_line(line: LineString, cutoffs: Sequence[tuple[float, float]], domain: RestorationDomain) -> LineString:
-    """Divide a fault, its cut-offs included, into edges short enough to slip along."""
-    line = insert_points(line, cutoffs)
-    return line.segmentize(min(domain.spacing, line.length / EDGES))
-
-
-def _inner_edges(mesh: Mesh, line: LineString, name: str, domain: RestorationDomain) -> np.ndarray:
-    along = edges_along(mesh, line, domain.spacing)
+def _inner_edges(mesh: Mesh, parts: Sequence[LineString], name: str, domain: RestorationDomain) -> np.ndarray:
+    along = np.concatenate([edges_along(mesh, part, domain.spacing) for part in parts])
     inner = ~np.isin(edge_keys(along), edge_keys(mesh.boundary))
     if not inner.any():
-        point = line.coords[0]
+        point = parts[0].coords[0]
         raise PickError(
             f"fault {name!r} runs along the border of the section near {domain.where(point)}, where there is nothing "
             "to slide; draw it inside",
@@ -263,15 +247,6 @@ def _drawn_on(
     if TIP in ends.get(name, ()):
         return faults[name]
     return continue_along(faults[name], boundaries, [line for other, line in faults.items() if other != name])
-
-
-def _own_edges(edges: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The edges of each fault; those of a stretch that faults share belong to the first of them."""
-    own: dict[str, np.ndarray] = {}
-    for name, along in edges.items():
-        taken = edge_keys(np.concatenate([np.empty((0, 2), int), *own.values()]))
-        own[name] = along[~np.isin(edge_keys(along), taken)]
-    return own
 
 
 def _check_meshed(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]], network: PickNetwork) -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 import shapely
 
+from seiswidgets.core.curves import along_curve, move_onto, smooth_curve
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.triangulation import edges_along, triangulate
 
@@ -27,10 +28,17 @@ def chain(vertices):
 
 def cut_along(line, *others, spacing=100.0):
     """The box meshed and cut along a line: the cut, and both copies of the line's edges."""
-    whole = triangulate(BOX, [line, *others], spacing)
-    edges = edges_along(whole, line, spacing)
-    cut = whole.cut(edges)
+    curve = shapely.intersection(smooth(line), BOX)
+    chords = along_curve(curve, [curve.project(shapely.Point(other.coords[0])) for other in others], spacing)
+    whole = triangulate(BOX, [chords, *others], spacing)
+    edges = edges_along(whole, chords, spacing)
+    cut = move_onto(whole, edges, curve).cut(edges)
     return cut, cut.sides(edges)
+
+
+def smooth(line):
+    """The smooth curve that a drawn line stands for."""
+    return shapely.LineString(smooth_curve(shapely.get_coordinates(line), 1e-5))
 
 
 def arc(chord, radius=1500.0, centre=(1500.0, -300.0), first=0.19, last=0.69):

@@ -6,7 +6,7 @@ import shapely
 from seiswidgets.core.contact import contacts
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue, Stitch
 from seiswidgets.core.triangulation import edges_along, triangulate
-from tests.core.meshes import BOX, PLANAR, arc, cut_along, rotated
+from tests.core.meshes import BOX, PLANAR, arc, cut_along, rotated, smooth
 
 TILTED = shapely.LineString([(0, 250), (1000, 350)])
 FOLD_X = np.linspace(0, 1000, 81)
@@ -31,7 +31,7 @@ def faulted(line, motion, spacing=70.0):
 
     ``motion`` is the block's known way back; it takes the block's cut-off to its partner.
     """
-    cut_off = np.array(shapely.intersection(line, BOX).interpolate(0.55, normalized=True).coords)[0]
+    cut_off = np.array(shapely.intersection(smooth(line), BOX).interpolate(0.55, normalized=True).coords)[0]
     partner = motion(cut_off)
     # a bed from each makes them vertices
     beds = [shapely.LineString([place, np.add(place, (60.0, 0.0))]) for place in (cut_off, partner)]
@@ -41,7 +41,7 @@ def faulted(line, motion, spacing=70.0):
     pair = [_nearest(mesh, left, partner), _nearest(mesh, right, cut_off)]
     terms = [
         *shape_terms(mesh),
-        *contacts(mesh, np.stack([left, right]), line, 10.0, "contact"),
+        *contacts(mesh, np.stack([left, right]), smooth(line), 10.0, "contact"),
         Stitch(np.array([pair]), len(mesh.vertices), 10.0),
         AreaBarrier(mesh),
     ]

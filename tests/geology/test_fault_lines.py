@@ -9,7 +9,7 @@ from shapely import LineString
 
 import seiswidgets as sw
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import MERGED, NEAR, fault_lines, insert_points, merge_close_points, resample_fine
+from seiswidgets.geology.fault_lines import MERGED, NEAR, fault_lines, merge_close_points, resample_fine
 
 SECTION = sw.Section(np.ones((101, 201), np.float32), dx=10, dz=10)
 SPACING = 100.0
@@ -172,14 +172,6 @@ def test_faults_on_top_of_each_other(offset, turned):
 def test_faults_side_by_side():
     one, other = [(800, 0), (800, 1000)], [(820, 200), (820, 700)]
     assert set(lines(one=one, other=other)) == {"one", "other"}
-
-
-@pytest.mark.parametrize("turned", [1, -1])
-def test_insert_points(turned):
-    line = LineString([(0, 0), (10, 0), (10, 10)][::turned])
-    places = [(10, 5), (5, 0), (10, 0), (0, 0), (10, 5), (10, 7)]
-    found = shapely.get_coordinates(insert_points(line, places))
-    np.testing.assert_allclose(found[::turned], [(0, 0), (5, 0), (10, 0), (10, 5), (10, 7), (10, 10)])
 
 
 @pytest.mark.parametrize(

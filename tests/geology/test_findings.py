@@ -174,9 +174,9 @@ def test_sides_of_a_fault_that_part(contradicting):
 
 
 def test_rock_on_rock():
-    """Two faults that cross cannot both slip at once."""
+    """Two faults that cross cannot both slip far at once."""
     faults = [sw.Fault([(x, 0), (3000 - x, 2000)], name=name) for x, name in ((1000, "F1"), (2000, "F2"))]
-    bed = sw.Horizon([(0, 700), (1350, 700)], [(1400, 800), (1600, 800)], [(1650, 700), (4000, 700)], name="A")
+    bed = sw.Horizon([(0, 700), (1350, 700)], [(1450, 900), (1550, 900)], [(1650, 700), (4000, 700)], name="A")
     restored = sw.Restoration(DEPTH_SECTION, 100).unfault(faults, bed)
     (overlap,) = of_kind(restored.findings, "overlap")
     stage = restored.stages[-1]
