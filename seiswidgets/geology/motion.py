@@ -19,6 +19,7 @@ from seiswidgets.geology.segments import hanging_side
 FOLDED, SEVERELY = 5.0, 15.0  # degrees about a fault's tip: a warning, a problem
 BESIDE = 1e-3  # of a fault's length: distance of points on either side of it
 LEAST = 1e-3  # of the rock's area: smaller parts are slivers between lines
+TRIANGLES = 20_000  # are enough for the mean motion of all parts
 NAMED = 2  # faults in the name of a part, at most
 
 
@@ -107,11 +108,13 @@ def observe_motion(
 
 def _motions(parts: RockParts, mesh: Mesh, vertices: np.ndarray) -> dict[int, RigidMotion]:
     """Rigid motion of each part, by its index, largest part first."""
-    before, after = (points[mesh.triangles].mean(axis=1) for points in (mesh.vertices, vertices))
+    some = slice(None, None, 1 + len(mesh.triangles) // TRIANGLES)
+    triangles, areas = mesh.triangles[some], mesh.areas[some]
+    before, after = (points[triangles].mean(axis=1) for points in (mesh.vertices, vertices))
     face = parts.locate(before)
-    found = [(mesh.areas[face == index].sum(), index) for index in np.unique(face[face >= 0]).tolist()]
+    found = [(areas[face == index].sum(), index) for index in np.unique(face[face >= 0]).tolist()]
     members = {index: face == index for _, index in sorted(found, reverse=True)}
-    return {index: rigid_motion(before[own], after[own], mesh.areas[own]) for index, own in members.items()}
+    return {index: rigid_motion(before[own], after[own], areas[own]) for index, own in members.items()}
 
 
 def _folds(parts: RockParts, motions: Mapping[int, RigidMotion], domain: RestorationDomain) -> list[Finding]:

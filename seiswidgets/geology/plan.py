@@ -183,7 +183,8 @@ class RestorationJob:
     @property
     def _shortest(self) -> float:
         """Length of the shortest pick, in metres of rock; of a horizon, its longest piece counts."""
-        picks: list[Fault | Horizon] = [*self.interpretation.faults, *self.interpretation.horizons]
+        drawn: list[Fault | Horizon] = [*self.interpretation.faults, *self.interpretation.horizons]
+        picks = [pick for pick in drawn if pick.constrains]
         return min((max(map(self._length, _lines(pick))) for pick in picks), default=np.inf)
 
     def _length(self, line: Sequence[Sequence[float]]) -> float:

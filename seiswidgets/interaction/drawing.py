@@ -278,6 +278,8 @@ class Drawing:
 
     def valid_pieces(self, pick: Pick) -> list[int]:
         """Indices of the pieces of a pick that can constrain a restoration."""
+        if pick.use != CONSTRAIN:
+            return []
         invalid = {piece for kind, name, piece, _ in self._checked[1] if (kind, name) == (pick.kind, pick.name)}
         return [piece for piece in range(len(pick.pieces)) if piece not in invalid]
 

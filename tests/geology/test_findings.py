@@ -181,7 +181,7 @@ def test_rock_on_rock():
     (overlap,) = of_kind(restored.findings, "overlap")
     stage = restored.stages[-1]
     assert overlap.severity == "problem"
-    assert f"{stage.report.overlap:.3g} m² of rock lie on other rock" in overlap.text
+    assert overlap.text.startswith(f"{float(f'{stage.report.overlap:.2g}'):g} m² of rock lie on other rock")
     there = restored.to_restored([overlap.where])[0]
     corners = stage.vertices[stage.mesh.triangles] - there
     ahead = np.roll(corners, -1, axis=1)

@@ -67,6 +67,16 @@ def test_every_name_and_number_comes_back(tmp_path, name, interpretation):
     assert lines_of(sw.read_picks(tmp_path / name, DEPTH)) == lines_of(interpretation)
 
 
+def test_geojson_keeps_the_use_of_picks(tmp_path):
+    carried = sw.Interpretation(SIMPLE.faults, [sw.Horizon(*SIMPLE.horizons[0].pieces, name="H1", use="carry")])
+    sw.write_picks(carried, tmp_path / "a.geojson", DEPTH)
+    read = sw.read_picks(tmp_path / "a.geojson", DEPTH)
+    assert [pick.use for pick in (*read.faults, *read.horizons)] == ["constrain", "carry"]
+    text = (tmp_path / "a.geojson").read_text().replace('"carry"', '"cut"')
+    with pytest.raises(DataError, match=r"properties.use must be one of constrain, carry, ignore, but is 'cut'"):
+        sw.read_picks(written(tmp_path, "b.geojson", text), DEPTH)
+
+
 def test_geojson_is_what_other_programs_read(tmp_path):
     sw.write_picks(SIMPLE, tmp_path / "a.geojson", TIME)
     document = json.loads((tmp_path / "a.geojson").read_text())

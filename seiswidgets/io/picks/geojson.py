@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from seiswidgets.errors import DataError
-from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
+from seiswidgets.geology.picks import CONSTRAIN, FAULT, HORIZON, USES, Fault, Horizon, Interpretation
 from seiswidgets.io.document import Entry, json_text, read_json
 from seiswidgets.io.picks.lines import FileLines, PickLine
 
@@ -58,7 +58,10 @@ def _pick_lines(feature: Entry) -> Iterator[PickLine]:
     pieces = [coordinates] if geometry_type == GEOMETRY[FAULT] else list(coordinates.items())
     if not pieces:
         raise coordinates.error("a list of pieces")
-    return (PickLine(kind, name, _flat(piece).points(), piece.location) for piece in pieces)
+    use = properties.optional("use", Entry.text, CONSTRAIN)
+    if use not in USES:
+        raise properties["use"].error(f"one of {', '.join(USES)}")
+    return (PickLine(kind, name, _flat(piece).points(), piece.location, use) for piece in pieces)
 
 
 def _flat(line: Entry) -> Entry:
@@ -73,15 +76,15 @@ def _flat(line: Entry) -> Entry:
 
 def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
     """The GeoJSON document of an interpretation, with exact numbers."""
-    faults = [_feature(FAULT, fault.name, fault.points.tolist()) for fault in interpretation.faults]
+    faults = [_feature(FAULT, fault, fault.points.tolist()) for fault in interpretation.faults]
     horizons = [
-        _feature(HORIZON, horizon.name, [piece.tolist() for piece in horizon.pieces])
-        for horizon in interpretation.horizons
+        _feature(HORIZON, horizon, [piece.tolist() for piece in horizon.pieces]) for horizon in interpretation.horizons
     ]
     mark = {"version": VERSION, "x_unit": x_unit, "z_unit": z_unit}
     return json_text({"type": "FeatureCollection", MARK: mark, "features": faults + horizons})
 
 
-def _feature(kind: str, name: str, coordinates: list) -> dict[str, object]:
+def _feature(kind: str, pick: Fault | Horizon, coordinates: list) -> dict[str, object]:
+    properties = {"kind": kind, "name": str(pick.name)} | ({} if pick.use == CONSTRAIN else {"use": pick.use})
     geometry = {"type": GEOMETRY[kind], "coordinates": coordinates}
-    return {"type": "Feature", "properties": {"kind": kind, "name": str(name)}, "geometry": geometry}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from seiswidgets.errors import DataError, Keyword, PickError, Text
-from seiswidgets.geology.picks import FAULT, HORIZON, Fault, Horizon, Interpretation
+from seiswidgets.geology.picks import CONSTRAIN, FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.section import METRES, SECONDS, Section
 from seiswidgets.io.document import LARGEST_NUMBER, Points, shortened
 
@@ -17,12 +17,13 @@ UNDEFINED = 9_999_900  # and above: other programs write 9999900, 9999999 or 1e3
 
 @dataclass(frozen=True)
 class PickLine:
-    """A fault, or a piece of a horizon, as points (x, z), with its location in the file."""
+    """A fault, or a piece of a horizon, as points (x, z), with its location in the file and its use."""
 
     kind: str
     name: str
     points: Points
     location: str
+    use: str = CONSTRAIN
 
 
 @dataclass(frozen=True)
@@ -58,14 +59,14 @@ def _fault(path: Path, name: str, pieces: list[PickLine]) -> Fault:
             pick=name,
         )
     try:
-        return Fault(np.array(pieces[0].points), name)
+        return Fault(np.array(pieces[0].points), name, use=pieces[0].use)
     except PickError as error:
         raise _located_error(path, pieces[0], error) from error
 
 
 def _horizon(path: Path, name: str, pieces: list[PickLine]) -> Horizon:
     try:
-        return Horizon(*(np.array(piece.points) for piece in pieces), name=name)
+        return Horizon(*(np.array(piece.points) for piece in pieces), name=name, use=pieces[0].use)
     except PickError as error:
         raise _located_error(path, pieces[0], error) from error
 
