@@ -26,6 +26,8 @@ def click_hint(state: EditorState, pointer: Move, tools: Tools) -> str:
 def _effect(before: EditorState, after: EditorState) -> str:
     if after.drag:
         return _grabbed(before, after)
+    if before.mode == BLOCK and after.pins != before.pins:
+        return "Click to pin this point" if len(after.pins) > len(before.pins) else "Click to release this pin"
     if before.mode == BLOCK:
         return "Click to release the block" if after.fixed is None else "Click to hold this block where it is"
     if before.mode == LOOK:

@@ -22,6 +22,7 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("L, F, H, B", "modes Look, Fault, Horizon, Hold"),
         ("Click, in Look", "selects a line, whose vertices can then be dragged"),
         ("Click, in Hold", "holds the block at the pointer; on the pin, releases it"),
+        ("Shift+click, in Hold", "pins the point at the pointer; a click on a pin releases it"),
         ("Click on a flag", "shows its finding and selects its pick"),
         ("Right click, long press, menu key", "shows what can be done there"),
     ),

@@ -122,7 +122,8 @@ class LinkedPanes(WithParts, VBox):
         section = restoration.original
         self.picture = picture = LivePicture(section)
         self.original, self.restored = (
-            SectionPane(section, height=height, picture=picture, restored=restored) for restored in (False, True)
+            SectionPane(section, height=height, picture=picture, restored=restored, mesh_opacity=0.0)
+            for restored in (False, True)
         )
         self._snapshot: Snapshot | None = None  # until the restoration is taken
         self._moment: Snapshot | None = None  # None at the end

@@ -514,6 +514,7 @@ def test_the_table_names_every_key():
         ("look", (700.0, 100.0), frozenset(), "Drag to pan"),
         ("block", (700.0, 100.0), frozenset(), "Click to hold this block"),
         ("block", (100.0, 100.0), frozenset(), "Click to release the block"),
+        ("block", (700.0, 100.0), SHIFT, "Click to pin this point"),
     ],
 )
 def test_the_hint_says_what_the_click_does_and_changes_nothing(drawn, mode, point, modifiers, words):

@@ -97,6 +97,15 @@ def test_a_hold_that_cannot_be_explains_itself_in_the_apps_words_at_its_pin(new_
     assert (flag["x"], flag["z"]) == pytest.approx((pin["x"], pin["z"]), abs=1)
 
 
+def test_what_no_fault_cuts_off_is_held_and_shows_its_pin(new_app):
+    blind = sw.synthetic.blind_fault()
+    app = new_app(blind.interpretation, section=blind.section, fixed=(500.0, 1000.0))
+    assert app.wait(LONG)
+    assert app.status.text.startswith("Settled")
+    assert [mark["kind"] for mark in app.panes.original.layer.marks if mark["text"] == "held"] == ["held"]
+    assert app.panes.original.layer.mesh_opacity == 0
+
+
 def test_a_flag_on_the_section_opens_its_finding(app, case):
     left, right = case.interpretation.horizons[0].pieces
     crossing = sw.Horizon(left + [0, 300], right - [0, 250], name="X")
