@@ -19,13 +19,16 @@ NODE_MODULES := node_modules/.package-lock.json
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
 
 .DEFAULT_GOAL := help
-.PHONY: help lab test check format js bench docs package binder binder-check
+.PHONY: help lab dashboard test check format js bench docs package binder binder-check
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 lab: $(VENV)/.lab  ## open the first notebook in JupyterLab (LAB_ARGS="--no-browser" passes options on)
 	$(BIN)/jupyter lab $(AS_ROOT) $(LAB_ARGS) $(NOTEBOOK)
+
+dashboard: $(VENV)/.test  ## serve the app without a notebook at http://127.0.0.1:8866 (DASHBOARD_ARGS="--port=8000")
+	cd notebooks && ../$(BIN)/voila dashboard.ipynb --no-browser $(DASHBOARD_ARGS)
 
 # One thread per worker, since pytest runs as many workers as there are cores.
 test: $(VENV)/.test $(NODE_MODULES)  ## run the tests (TEST_ARGS="-k picks" passes options on to pytest)
