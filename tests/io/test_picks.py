@@ -67,6 +67,19 @@ def test_every_name_and_number_comes_back(tmp_path, name, interpretation):
     assert lines_of(sw.read_picks(tmp_path / name, DEPTH)) == lines_of(interpretation)
 
 
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize(("use", "ends"), [("carry", "auto"), ("constrain", ("tip", "extend")), ("ignore", "tip")])
+def test_uses_and_ends_come_back(tmp_path, name, use, ends):
+    fault = sw.Fault([(900, 0), (1000, 1000)], "F1", ends=ends, use=use)
+    horizon = sw.Horizon([(0, 100), (940, 120)], name="H1", use=use)
+    sw.write_picks(sw.Interpretation((fault,), (horizon,)), tmp_path / name, DEPTH)
+    again = sw.read_picks(tmp_path / name, DEPTH)
+    assert (again.faults[0].use, again.faults[0].ends, again.horizons[0].use) == (use, fault.ends, use)
+    text = (tmp_path / name).read_text().replace(use if use != "constrain" else "tip extend", "wrong")
+    with pytest.raises(DataError, match=r"F1|wrong"):
+        sw.read_picks(written(tmp_path, name, text), DEPTH)
+
+
 def test_geojson_keeps_the_use_of_picks(tmp_path):
     carried = sw.Interpretation(SIMPLE.faults, [sw.Horizon(*SIMPLE.horizons[0].pieces, name="H1", use="carry")])
     sw.write_picks(carried, tmp_path / "a.geojson", DEPTH)

@@ -1,5 +1,7 @@
 """Numbers of SEG-Y headers that cannot be, or that contradict each other: read right or refused."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -301,6 +303,25 @@ def test_starts_of_ordinary_surveys_are_believed(save, delay, scalar, revision, 
     path = save(headers, binary={3501: revision})
     assert opened(path).z0 == pytest.approx(z0)
     assert sw.preview(path).z0 == pytest.approx(z0)
+
+
+@pytest.mark.parametrize(
+    ("delay", "interval", "said"),
+    [
+        (4000, 4000, r"start at 4000 ms.* also the number of their sample interval .* give z0="),
+        (1001, 2000, r"start at 1001 ms.* no multiple of their sample interval, 2; .* give z0="),
+        (1002, 4000, r"no multiple of their sample interval, 4"),
+        (1000, 4000, None),
+        (-100, 4000, None),
+        (0, 3000, None),
+    ],
+)
+def test_starts_are_compared_with_the_sample_interval(save, delay, interval, said):
+    path = save([header | {109: delay} for header in straight(3)], interval=interval)
+    texts = [finding.text for finding in sw.preview(path).findings if finding.kind == "start"]
+    assert len(texts) == (said is not None)
+    assert said is None or re.search(said, texts[0])
+    assert opened(path).z0 == delay
 
 
 def test_delay_scalars_are_read_of_each_trace(save):

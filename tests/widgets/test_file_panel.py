@@ -168,6 +168,58 @@ def test_positions_that_are_of_no_use_are_said_before_opening(app, tmp_path):
     assert "give “other header bytes” {" in unescape(look(app, tmp_path / "old.sgy").fields.note.value)
 
 
+def mislabelled(path, code):
+    traces = np.sin(np.arange(40) / 3 + np.arange(30)[:, None] / 5)
+    content = bytearray(segy_bytes(traces, [{181: 25 * n} for n in range(30)]))
+    content[3224:3226] = code.to_bytes(2, "big")
+    path.write_bytes(content)
+    return path, traces
+
+
+def test_a_doubtful_sample_format_is_asked_for(app, tmp_path):
+    path, traces = mislabelled(tmp_path / "line.sgy", 1)
+    opener = look(app, path)
+    assert "give “sample format” f4" in unescape(opener.fields.note.value)
+    chooser = opener.fields.fields["sample_format"]
+    assert [value for _, value in chooser.options] == ["f4", "ibm"]
+    load(app, path)
+    np.testing.assert_allclose(app.section.amplitude.T, traces, rtol=1e-6, atol=1e-6)
+    assert app.source.choices["sample_format"] == "f4"
+    opener.header_bytes.unfolded.value = True
+    opener.header_bytes.corrections["sample_format"].value = "ibm"
+    assert opener.wait(LONG)
+    assert "sample_format" not in opener.fields.fields
+    opener.load()
+    assert opener.wait(LONG)
+    assert app.source.choices["sample_format"] == "ibm"
+
+
+def test_a_header_that_cannot_be_read_can_be_corrected(app, tmp_path):
+    path, traces = mislabelled(tmp_path / "line.sgy", 0)
+    opener = look(app, path)
+    assert "states no format: give “sample format”" in opener.notice.text
+    assert opener.open_button.disabled
+    opener.header_bytes.unfolded.value = True
+    opener.header_bytes.corrections["sample_format"].value = "f4"
+    assert opener.wait(LONG)
+    assert opener.notice.text == ""
+    opener.load()
+    assert opener.wait(LONG)
+    np.testing.assert_allclose(app.section.amplitude.T, traces, rtol=1e-6, atol=1e-6)
+
+
+def test_an_offset_is_asked_for_before_stack(app, tmp_path):
+    headers = [{181: 25 * n, 21: n, 37: offset} for n in range(20) for offset in (100, 200, 300)]
+    traces = np.random.default_rng(0).normal(size=(60, 40))
+    (tmp_path / "gathers.sgy").write_bytes(segy_bytes(traces, headers))
+    opener = look(app, tmp_path / "gathers.sgy")
+    assert opener.fields.fields["offset"].value == "100"
+    assert "3 offsets, 100 to 300" in opener.summary.value
+    load(app, tmp_path / "gathers.sgy", offset="200")
+    assert app.source.choices["offset"] == 200
+    np.testing.assert_allclose(app.section.amplitude.T, traces[1::3], rtol=1e-6)
+
+
 def test_doubtful_headers_are_said_before_opening(app, tmp_path):
     traces, path = np.zeros((30, 5), np.float32), tmp_path / "decimetres.sgy"
     path.write_bytes(segy_bytes(traces, [{181: 4_340_000 + 125 * n, 185: 64_780_000} for n in range(30)]))

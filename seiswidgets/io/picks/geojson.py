@@ -6,9 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from seiswidgets.errors import DataError
-from seiswidgets.geology.picks import CONSTRAIN, FAULT, HORIZON, USES, Fault, Horizon, Interpretation
+from seiswidgets.geology.picks import AUTO, CONSTRAIN, FAULT, HORIZON, USES, Fault, Horizon, Interpretation
 from seiswidgets.io.document import Entry, json_text, read_json
-from seiswidgets.io.picks.lines import FileLines, PickLine
+from seiswidgets.io.picks.lines import FileLines, PickLine, ends_text
 
 MARK = "seiswidgets_picks"  # a foreign member, as RFC 7946 allows
 VERSION = 1
@@ -18,7 +18,8 @@ GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}  # as written; a GI
 def read(path: Path) -> FileLines:
     """Read a FeatureCollection whose member ``seiswidgets_picks`` holds version, x_unit and z_unit.
 
-    A fault is a LineString, a horizon a MultiLineString of its pieces; ``properties`` hold kind and name. Positions
+    A fault is a LineString, a horizon a MultiLineString of its pieces; ``properties`` hold kind and name, and use and
+    ends where they are not the usual ones. Positions
     are (x, z) on the section, not longitude and latitude. A GIS may have left out the member with the units, changed
     one kind of lines to the other, or added a third coordinate of 0.
     """
@@ -58,10 +59,10 @@ def _pick_lines(feature: Entry) -> Iterator[PickLine]:
     pieces = [coordinates] if geometry_type == GEOMETRY[FAULT] else list(coordinates.items())
     if not pieces:
         raise coordinates.error("a list of pieces")
-    use = properties.optional("use", Entry.text, CONSTRAIN)
+    use, ends = (properties.optional(key, Entry.text, default) for key, default in (("use", CONSTRAIN), ("ends", AUTO)))
     if use not in USES:
         raise properties["use"].error(f"one of {', '.join(USES)}")
-    return (PickLine(kind, name, _flat(piece).points(), piece.location, use) for piece in pieces)
+    return (PickLine(kind, name, _flat(piece).points(), piece.location, use, ends) for piece in pieces)
 
 
 def _flat(line: Entry) -> Entry:
@@ -76,15 +77,17 @@ def _flat(line: Entry) -> Entry:
 
 def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
     """The GeoJSON document of an interpretation, with exact numbers."""
-    faults = [_feature(FAULT, fault, fault.points.tolist()) for fault in interpretation.faults]
+    faults = [_feature(fault, FAULT, fault.points.tolist()) for fault in interpretation.faults]
     horizons = [
-        _feature(HORIZON, horizon, [piece.tolist() for piece in horizon.pieces]) for horizon in interpretation.horizons
+        _feature(horizon, HORIZON, [piece.tolist() for piece in horizon.pieces]) for horizon in interpretation.horizons
     ]
     mark = {"version": VERSION, "x_unit": x_unit, "z_unit": z_unit}
     return json_text({"type": "FeatureCollection", MARK: mark, "features": faults + horizons})
 
 
-def _feature(kind: str, pick: Fault | Horizon, coordinates: list) -> dict[str, object]:
-    properties = {"kind": kind, "name": str(pick.name)} | ({} if pick.use == CONSTRAIN else {"use": pick.use})
+def _feature(pick: Fault | Horizon, kind: str, coordinates: list) -> dict[str, object]:
     geometry = {"type": GEOMETRY[kind], "coordinates": coordinates}
+    properties = {"kind": kind, "name": str(pick.name)}
+    properties |= {"use": pick.use} if pick.use != CONSTRAIN else {}
+    properties |= {"ends": ends_text(pick)} if ends_text(pick) != AUTO else {}
     return {"type": "Feature", "properties": properties, "geometry": geometry}

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seiswidgets.errors import DataError, Keyword, PickError, Text
-from seiswidgets.geology.picks import CONSTRAIN, FAULT, HORIZON, Fault, Horizon, Interpretation
+from seiswidgets.errors import DataError, Keyword, PickError, SettingError, Text
+from seiswidgets.geology.picks import AUTO, CONSTRAIN, FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.section import METRES, SECONDS, Section
 from seiswidgets.io.document import LARGEST_NUMBER, Points, shortened
 
@@ -17,13 +17,14 @@ UNDEFINED = 9_999_900  # and above: other programs write 9999900, 9999999 or 1e3
 
 @dataclass(frozen=True)
 class PickLine:
-    """A fault, or a piece of a horizon, as points (x, z), with its location in the file and its use."""
+    """A fault, or a piece of a horizon, as points (x, z), with its location in the file, its use and its ends."""
 
     kind: str
     name: str
     points: Points
     location: str
     use: str = CONSTRAIN
+    ends: str = AUTO
 
 
 @dataclass(frozen=True)
@@ -59,19 +60,25 @@ def _fault(path: Path, name: str, pieces: list[PickLine]) -> Fault:
             pick=name,
         )
     try:
-        return Fault(np.array(pieces[0].points), name, use=pieces[0].use)
-    except PickError as error:
+        first, _, last = pieces[0].ends.partition(" ")
+        return Fault(np.array(pieces[0].points), name, (first, last or first), pieces[0].use)
+    except (PickError, SettingError) as error:
         raise _located_error(path, pieces[0], error) from error
 
 
 def _horizon(path: Path, name: str, pieces: list[PickLine]) -> Horizon:
     try:
         return Horizon(*(np.array(piece.points) for piece in pieces), name=name, use=pieces[0].use)
-    except PickError as error:
+    except (PickError, SettingError) as error:
         raise _located_error(path, pieces[0], error) from error
 
 
-def _located_error(path: Path, line: PickLine, error: PickError) -> DataError:
+def ends_text(pick: Fault | Horizon) -> str:
+    """The choices for the ends of a fault, as in a file: one word if both are the same."""
+    return " ".join(dict.fromkeys(pick.ends if isinstance(pick, Fault) else (AUTO,)))
+
+
+def _located_error(path: Path, line: PickLine, error: PickError | SettingError) -> DataError:
     message = shortened(error.text)
     text = error.text if message == error.text else Text(message)
     return DataError(f"{path}: {line.location}: ", text, pick=line.name, where=error.where)

@@ -66,7 +66,7 @@ def _points_without_header(path: Path, text: str) -> Iterator[MapPoint]:
 
 
 def _kind_of_rows(text: str) -> tuple[bool, bool]:
-    """Whether rows of five values without a header are of a 3-D horizon, and whether they are of faults.
+    """Check whether rows of five values without a header are of a 3-D horizon, and whether they are of faults.
 
     The trace number of a 2-D horizon changes from row to row, an inline or crossline does not; the last column of
     faults counts the nodes of a stick from 0.

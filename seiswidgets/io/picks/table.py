@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from seiswidgets.errors import DataError
-from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
+from seiswidgets.geology.picks import AUTO, CONSTRAIN, FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.io.document import MOST_JSON_BYTES, Point, read_text, text_lines
-from seiswidgets.io.picks.lines import FileLines, PickLine, parse_number
+from seiswidgets.io.picks.lines import FileLines, PickLine, ends_text, parse_number
 
 COLUMNS = ("kind", "name", "piece", "x", "z")
+CHOICES = {"use": CONSTRAIN, "ends": AUTO}  # columns that may be left out, with the usual values
 FORMULA = re.compile(r"'*[=+\-@\t\r\n＝＋－＠]")  # a spreadsheet would compute a name that begins like this
 
 
@@ -26,7 +27,7 @@ def read(path: Path) -> FileLines:
     if not header:
         raise DataError(f"{path} is empty; its first row must name the columns {', '.join(COLUMNS)}")
     columns, x_unit, z_unit = _columns_and_units(path, header)
-    drawn: dict[tuple[str, str, str], tuple[str, list[Point]]] = {}
+    drawn: dict[tuple[str, str, str], tuple[str, list[Point], str, str]] = {}
     for location, row in rows:
         if len(row) != len(header):
             raise DataError(
@@ -38,8 +39,13 @@ def read(path: Path) -> FileLines:
             raise DataError(f"{path}: {location}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
         x, z = (parse_number(path, location, column, row[columns[column]]) for column in ("x", "z"))
         name = name[1:] if name[:1] == "'" and FORMULA.match(name) else name
-        drawn.setdefault((kind, name, piece), (location, []))[1].append((x, z))
-    lines = (PickLine(kind, name, tuple(points), start) for (kind, name, _), (start, points) in drawn.items())
+        choices = {title: row[columns[title]] for title in CHOICES if title in columns and row[columns[title]]}
+        use, ends = (CHOICES | choices).values()
+        drawn.setdefault((kind, name, piece), (location, [], use, ends))[1].append((x, z))
+    lines = (
+        PickLine(kind, name, tuple(points), start, use, ends)
+        for (kind, name, _), (start, points, use, ends) in drawn.items()
+    )
     return FileLines(tuple(lines), x_unit, z_unit)
 
 
@@ -72,12 +78,15 @@ def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
     """The CSV table of an interpretation, with exact numbers."""
     table = io.StringIO(newline="")
     writer = csv.writer(table)
-    writer.writerow([*COLUMNS[:3], f"x ({x_unit})", f"z ({z_unit})"])
-    for fault in interpretation.faults:
-        writer.writerows([FAULT, _guarded(fault.name), 1, x, z] for x, z in fault.points.tolist())
-    for horizon in interpretation.horizons:
-        for count, piece in enumerate(horizon.pieces, 1):
-            writer.writerows([HORIZON, _guarded(horizon.name), count, x, z] for x, z in piece.tolist())
+    picks: list[Fault | Horizon] = [*interpretation.faults, *interpretation.horizons]
+    usual = all([pick.use, ends_text(pick)] == list(CHOICES.values()) for pick in picks)
+    writer.writerow([*COLUMNS[:3], f"x ({x_unit})", f"z ({z_unit})", *([] if usual else CHOICES)])
+    for pick in picks:
+        kind = FAULT if isinstance(pick, Fault) else HORIZON
+        pieces = (pick.points,) if isinstance(pick, Fault) else pick.pieces
+        choices = [] if usual else [pick.use, ends_text(pick)]
+        for count, piece in enumerate(pieces, 1):
+            writer.writerows([kind, _guarded(pick.name), count, x, z, *choices] for x, z in piece.tolist())
     return table.getvalue()
 
 

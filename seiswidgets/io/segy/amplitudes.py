@@ -8,7 +8,7 @@ from seiswidgets.errors import Keyword, Text
 from seiswidgets.io.segy.formats import FORMATS, SampleFormat
 from seiswidgets.io.segy.traces import TraceHeaders
 
-TRACES, SAMPLES = 32, 2000  # that are looked at: so many traces, and so many samples of each, from its middle
+TRACES, SAMPLES = 32, 2000  # that are compared: traces, and samples in the middle of each
 ENOUGH = 50  # different amplitudes, without which nothing is concluded
 PLAUSIBLE = (1e-18, 1e18)  # size of an amplitude
 MOST_IMPLAUSIBLE = 0.02  # share of the amplitudes

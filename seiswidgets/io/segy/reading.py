@@ -24,7 +24,7 @@ from seiswidgets.io.segy.course import course, remarks, spacing
 from seiswidgets.io.segy.layout import read_layout
 from seiswidgets.io.segy.lines import Line, line, sample_line
 from seiswidgets.io.segy.traces import TraceHeaders, checked_fields
-from seiswidgets.io.segy.vertical import delay, interval
+from seiswidgets.io.segy.vertical import delay, interval, start_remarks
 from seiswidgets.io.segy.volumes import lines_of_volume
 
 BLOCK = 256  # traces between two reports of progress
@@ -119,6 +119,7 @@ def preview_segy(path: Path, options: OpenOptions) -> SectionInfo:
         )
         (dx, dz, z0), problems = zip(*map(_measure, measures), strict=True)
         remarked = () if dx is None else remarks(headers, first, dx)
+        remarked += () if dz is None or z0 is None else start_remarks(headers, dz, z0)
         doubt = format_doubt(headers, first.traces)
     return SectionInfo(
         path=path,

@@ -5,12 +5,14 @@ from pathlib import Path
 import numpy as np
 
 from seiswidgets.errors import DataError, Keyword, Text
+from seiswidgets.geology.findings import Finding
 from seiswidgets.io.segy.traces import TraceHeaders
 
 INTERVALS = (0.01, 32.767)  # ms or m; beyond it the standard's signed number of thousandths is negative
 LONGEST = 200_000  # ms or m: length of a trace
 STARTS = (-10_000, 20_000)  # ms or m
 STANDARD_SCALARS = (0, 1, 10, 100, 1000, 10_000)  # or their negatives; 0 counts as 1
+OFF_GRID = 0.02  # of the sample interval
 GIVE_DZ = Text("give the distance between samples, in the unit of z: ", Keyword("dz"))
 GIVE_Z0 = Text("give the start of the traces, in the unit of z: ", Keyword("z0"))
 
@@ -102,6 +104,22 @@ def delay(headers: TraceHeaders, traces: np.ndarray) -> float:
             GIVE_Z0,
         )
     return float(delays[0])
+
+
+def start_remarks(headers: TraceHeaders, dz: float, z0: float) -> tuple[Finding, ...]:
+    """Warnings about a start of the traces that is doubtful beside their sample interval."""
+    texts = []
+    if z0 and z0 == headers.layout.interval:
+        texts.append(
+            f"the traces start at {z0:g} ms, m or ft (bytes 109-110), which is also the number of their sample "
+            "interval in thousandths; if it was written there by mistake, give "
+        )
+    elif abs(z0 / dz - round(z0 / dz)) > OFF_GRID:
+        texts.append(
+            f"the traces start at {z0:g} ms, m or ft (bytes 109-110), which is no multiple of their sample interval, "
+            f"{dz:g}; if it is in other units, give "
+        )
+    return tuple(Finding("warning", "start", Text(text, Keyword("z0"))) for text in texts)
 
 
 def _delay_factors(headers: TraceHeaders, traces: np.ndarray, delays: np.ndarray) -> np.ndarray:
