@@ -9,7 +9,8 @@ from shapely import LineString
 
 from seiswidgets.core.mesh import Mesh, triangle_areas
 
-CORNER = np.radians(10)  # a larger turn of a drawn line is a corner; a smaller one samples a smooth curve
+CORNER = np.radians(10)  # a larger turn of a drawn line is a corner, unless the next turn is like it
+ROUND = np.radians(25)  # a larger turn is always a corner
 LOCAL = 2.0  # times the length of the next segment: a longer segment is straight farther away from it
 MOST = 64  # pieces of a segment
 
@@ -17,9 +18,11 @@ MOST = 64  # pieces of a segment
 def smooth_curve(points: np.ndarray, tolerance: float) -> np.ndarray:
     """Draw a smooth curve through the points of a line.
 
-    Where the line turns by no more than 10 degrees the curve has the tangent of the circle through a point and its
-    neighbours, and between points it is a cubic; so a circle's arc is recovered from a few of its points. Larger turns
-    are corners. Without this the two sides of a round fault, which are polygons, would mesh like cogs.
+    The line is smooth where it turns by no more than 10 degrees, or by no more than 25 if the turn before or after has
+    the same sense and half to twice the size, as in a listric fault drawn with few points. There the curve has the
+    tangent of the circle through a point and its neighbours, and between points it is a cubic; so a circle's arc is
+    recovered from a few of its points. Other turns are corners, as those of a ramp. Without this the two sides of a
+    round fault, which are polygons, would mesh like cogs.
 
     Parameters
     ----------
@@ -63,12 +66,20 @@ def _with_straight_parts(points: np.ndarray) -> np.ndarray:
 def _deviations(lengths: np.ndarray, turns: np.ndarray) -> np.ndarray:
     """Angles between each segment and the curve's tangents at its two ends, shape (n, 2)."""
     share = lengths[:-1] / (lengths[:-1] + lengths[1:])
-    smooth = np.abs(turns) <= CORNER
+    smooth = _are_smooth(turns)
     known = np.full((len(lengths), 2), np.nan)
     known[:-1, 1] = np.where(smooth, share * turns, np.nan)
     known[1:, 0] = np.where(smooth, (share - 1) * turns, np.nan)
     known = np.where(np.isnan(known), -known[:, ::-1], known)  # at an end or a corner: as a circle would go on
     return np.nan_to_num(known)
+
+
+def _are_smooth(turns: np.ndarray) -> np.ndarray:
+    """True for turns that sample a smooth curve, False for corners."""
+    one, other = turns[:-1], turns[1:]
+    alike = (one * other > 0) & (np.abs(one) <= 2 * np.abs(other)) & (np.abs(other) <= 2 * np.abs(one))
+    in_series = np.append(alike, False) | np.append(False, alike)
+    return np.asarray(np.abs(turns) <= np.where(in_series[: len(turns)], ROUND, CORNER))
 
 
 def along_curve(curve: LineString, anchors: Sequence[float], step: float) -> LineString:

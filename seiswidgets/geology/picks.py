@@ -34,6 +34,10 @@ def both_ends(ends: str | Ends) -> Ends:
 class Fault:
     """A fault, drawn as a polyline from one end to the other.
 
+    Rock slides along the smooth curve through its points. Turns of up to 10 degrees, or of up to 25 in a series of
+    similar ones, are taken for samples of that curve; larger ones, and single ones such as the bends of a ramp, are
+    corners. A bend that should stay sharp needs a second point close to it.
+
     Parameters
     ----------
     points : array, shape (n, 2), n >= 2

@@ -18,8 +18,13 @@ def on_arc(degrees):
 
 @pytest.mark.parametrize(
     ("degrees", "error"),
-    [(np.linspace(35, 62, 4), 0.05), (np.linspace(62, 35, 7), 0.01), ([35, 41, 45, 53, 57, 62], 0.02)],
-    ids=["4 points", "7 points, drawn the other way", "unevenly"],
+    [
+        (np.linspace(35, 62, 4), 0.05),
+        (np.linspace(62, 35, 7), 0.01),
+        ([35, 41, 45, 53, 57, 62], 0.02),
+        (np.linspace(10, 70, 4), 0.5),
+    ],
+    ids=["4 points", "7 points, drawn the other way", "unevenly", "turns of 20 degrees"],
 )
 def test_a_few_points_of_an_arc_give_the_arc(degrees, error):
     curve = smooth_curve(on_arc(degrees), TOLERANCE)
@@ -43,6 +48,15 @@ def test_larger_turns_are_corners(turn, bends):
     end = [100 + 100 * np.cos(np.radians(turn)), 100 * np.sin(np.radians(turn))]
     points = np.array([(0, 0), (100, 0), end])
     assert (len(smooth_curve(points, TOLERANCE)) > 3) == bends == (0 < abs(np.radians(turn)) <= CORNER)
+
+
+@pytest.mark.parametrize(("next_turn", "bends"), [(15, True), (8, True), (5, False), (-15, False), (30, False)])
+def test_a_large_turn_is_smooth_in_a_series_only(next_turn, bends):
+    """A listric fault keeps on turning; a ramp turns back, or ends on a flat."""
+    angles = np.radians(np.cumsum([0, 15, next_turn]))
+    points = np.append([[0, 0]], 300 * np.cumsum(np.column_stack([np.cos(angles), np.sin(angles)]), axis=0), axis=0)
+    curve = smooth_curve(points, TOLERANCE)
+    assert (np.abs(curve[curve[:, 0] < 299, 1]).max() > 1) == bends
 
 
 def test_two_points_are_a_straight_line():
