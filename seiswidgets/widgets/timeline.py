@@ -12,7 +12,7 @@ from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.section_view.live_picture import FRAMES
 
-INTERVAL = 33  # ms between two frames
+INTERVAL = 30  # ms between two frames
 
 
 class Timeline(WithParts, HBox):

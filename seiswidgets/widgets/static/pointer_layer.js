@@ -1009,9 +1009,11 @@ function within(start, step, pixels, samples) {
 
 // pointer_layer/live_pane.js
 var LONGEST_HOLD = 1e3;
+var SLOW = 14;
+var SOON = 200;
 var PARTS_BY_TRAIT = {
-  stages: ["picture", "mesh", "strokes", "marks", "cursors"],
-  frame: ["picture", "mesh", "strokes", "marks", "cursors"],
+  stages: ["picture", "mesh", "strokes", "marks", "cursors", "note"],
+  frame: ["picture", "mesh", "strokes", "marks", "cursors", "note"],
   texture: ["picture"],
   revision: ["picture"],
   picture: ["picture", "mesh"],
@@ -1028,6 +1030,9 @@ var LivePane = class {
    */
   constructor(model, el, requestDraw) {
     this.isRestored = model.get("restored");
+    this.requestDraw = requestDraw;
+    this.last = { time: 0, start: -Infinity, took: 0 };
+    this.refining = void 0;
     this.model = null;
     this.canvas = document.createElement("canvas");
     this.pixels = new ImageData(1, 1);
@@ -1039,14 +1044,13 @@ var LivePane = class {
       this.isStopped = true;
     };
     const reference = model.get("picture");
-    if (reference) this.start(model.widget_manager.get_model(reference.replace("IPY_MODEL_", "")), el, requestDraw);
+    if (reference) this.start(model.widget_manager.get_model(reference.replace("IPY_MODEL_", "")), el);
   }
   /**
    * @param {Promise<import("../picture/types.js").PictureModel>} promise
    * @param {HTMLElement} el
-   * @param {(parts: Part[]) => void} requestDraw
    */
-  async start(promise, el, requestDraw) {
+  async start(promise, el) {
     this.canvas.className = "seiswidgets-plot";
     el.prepend(this.canvas);
     const model = await promise;
@@ -1054,18 +1058,19 @@ var LivePane = class {
     this.model = model;
     const handlers = Object.entries(PARTS_BY_TRAIT).map(([trait, parts]) => [
       `change:${trait}`,
-      () => requestDraw(parts)
+      () => this.requestDraw(parts)
     ]);
     handlers.push(["change:changing", () => this.heldAt = performance.now()]);
     for (const [name, handler] of handlers) model.on(name, handler);
     this.stop = () => {
+      clearTimeout(this.refining);
       for (const [name, handler] of handlers) model.off(
         /** @type {"change:frame"} */
         name,
         handler
       );
     };
-    requestDraw(["picture", "mesh"]);
+    this.requestDraw(["picture", "mesh"]);
   }
   /** The picture, once its own script has run. */
   get picture() {
@@ -1084,9 +1089,29 @@ var LivePane = class {
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     if (this.pixels.width !== size.width || this.pixels.height !== size.height)
       this.pixels = new ImageData(size.width, size.height);
-    const scene = picture.scene(this.isRestored, model.get("window"));
-    this.drawScene(new Uint32Array(this.pixels.data.buffer), size, scene);
+    const pixels = new Uint32Array(this.pixels.data.buffer);
+    const start = performance.now();
+    const rows = this.rowsAtATime(picture.time, start);
+    const drawn = { width: size.width, height: Math.ceil(size.height / rows) };
+    this.drawScene(pixels, drawn, picture.scene(this.isRestored, model.get("window")));
+    if (rows > 1) repeatRows(pixels, size, rows);
     canvas.getContext("2d")?.putImageData(this.pixels, 0, 0);
+    this.last = { time: picture.time, start, took: (performance.now() - start) * rows };
+  }
+  /**
+   * The height in pixels of the rows that are drawn: 1, or while time runs on a slow computer, 2. Then the picture is
+   * drawn finely as soon as it stands still.
+   *
+   * @param {number} time
+   * @param {number} now
+   */
+  rowsAtATime(time, now) {
+    clearTimeout(this.refining);
+    const { last } = this;
+    const isRunning = time !== last.time && now - last.start < SOON;
+    if (!isRunning || last.took < SLOW) return 1;
+    this.refining = setTimeout(() => this.requestDraw(["picture"]), SOON);
+    return 2;
   }
   /**
    * Draw a scene; the section under the colours of the present-day pane is kept, since it stays the same in a drag.
@@ -1096,15 +1121,25 @@ var LivePane = class {
    * @param {import("../picture/scene.js").Scene} scene
    */
   drawScene(pixels, size, scene) {
+    if (scene.isRestored) {
+      drawSection(pixels.fill(0), size, scene);
+      return;
+    }
     const base = [scene.texture, scene.colours, size.width, size.height, ...scene.window];
-    if (scene.isRestored || base.some((value, i) => value !== this.base[i])) {
-      pixels.fill(0);
-      drawSection(pixels, size, scene);
+    if (base.some((value, i) => value !== this.base[i])) {
+      drawSection(pixels.fill(0), size, scene);
+      this.base = base;
+      this.section = pixels.slice();
     } else pixels.set(this.section);
-    if (scene.isRestored) return;
-    this.base = base;
-    this.section = pixels.slice();
     drawRatios(pixels, size, scene);
+  }
+  /** The moment that is shown, for the corner of the restored pane; empty at the end. */
+  get moment() {
+    const { picture } = this;
+    if (!picture || !this.isRestored || picture.isAtEnd) return "";
+    const step = Math.max(1, Math.ceil(picture.time));
+    const share = Math.round(100 * (picture.time - step + 1));
+    return picture.time ? ` · step ${step} of ${picture.chain.stages.length}, ${share}%` : " · present day";
   }
   get mesh() {
     return this.picture?.mesh(this.isRestored) ?? null;
@@ -1148,6 +1183,12 @@ var LivePane = class {
     return marks.flatMap((mark) => this.places([[mark.x, mark.z]]).map((at) => at && { ...mark, x: at[0], z: at[1] })).filter((mark) => mark !== null);
   }
 };
+function repeatRows(pixels, { width, height }, rows) {
+  for (let row = height - 1; row > 0; row--) {
+    const from = Math.floor(row / rows) * width;
+    pixels.copyWithin(row * width, from, from + width);
+  }
+}
 
 // pointer_layer/marks.js
 var PIN = "M0,0C-2,-6 -7,-9 -7,-14A7,7 0 1 1 7,-14C7,-9 2,-6 0,0Z";
@@ -1392,9 +1433,9 @@ function entryPoint(from, to, { width, height }) {
 
 // pointer_layer/view.js
 var REST = 250;
-var ALL_PARTS = ["axes", "picture", "mesh", "strokes", "marks", "cursors"];
+var ALL_PARTS = ["axes", "note", "picture", "mesh", "strokes", "marks", "cursors"];
 var PARTS_BY_TRAIT2 = {
-  axes: ["axes"],
+  axes: ["axes", "note"],
   label: ["axes"],
   size: ["axes"],
   window: ["picture", "mesh", "strokes", "marks", "cursors"],
@@ -1464,6 +1505,7 @@ var LayerView = class {
   drawParts(outdated) {
     const { model, plotArea, elements, live } = this;
     if (outdated.has("axes")) this.drawAxes();
+    if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
     if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
     if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
@@ -1486,7 +1528,6 @@ var LayerView = class {
   drawAxes() {
     const axes = this.model.get("axes");
     drawAxes(this.elements.axes, axes, this.plotArea);
-    this.elements.note.textContent = axes.note ?? "";
     this.elements.plot.setAttribute("aria-label", this.model.get("label"));
   }
   drawCursors() {

@@ -4,6 +4,8 @@ import { carry } from "../maps/piecewise_affine_map.js";
 import { drawRatios, drawSection } from "../picture/scene.js";
 
 const LONGEST_HOLD = 1000; // ms after which a change of the kernel counts as interrupted
+const SLOW = 14; // ms that a picture may take at 30 a second: there are two panes
+const SOON = 200; // ms within which another picture follows while time runs
 
 /** @typedef {import("./types.js").SectionPoint} SectionPoint */
 /** @typedef {import("./view.js").Part} Part */
@@ -14,8 +16,8 @@ const LONGEST_HOLD = 1000; // ms after which a change of the kernel counts as in
  * @type {Partial<Record<keyof import("../picture/types.js").PictureTraits, Part[]>>}
  */
 const PARTS_BY_TRAIT = {
-  stages: ["picture", "mesh", "strokes", "marks", "cursors"],
-  frame: ["picture", "mesh", "strokes", "marks", "cursors"],
+  stages: ["picture", "mesh", "strokes", "marks", "cursors", "note"],
+  frame: ["picture", "mesh", "strokes", "marks", "cursors", "note"],
   texture: ["picture"],
   revision: ["picture"],
   picture: ["picture", "mesh"],
@@ -33,6 +35,10 @@ export class LivePane {
    */
   constructor(model, el, requestDraw) {
     this.isRestored = model.get("restored");
+    this.requestDraw = requestDraw;
+    this.last = { time: 0, start: -Infinity, took: 0 };
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.refining = undefined;
     /** @type {import("../picture/types.js").PictureModel | null} */
     this.model = null;
     this.canvas = document.createElement("canvas");
@@ -46,15 +52,14 @@ export class LivePane {
       this.isStopped = true;
     };
     const reference = model.get("picture");
-    if (reference) this.start(model.widget_manager.get_model(reference.replace("IPY_MODEL_", "")), el, requestDraw);
+    if (reference) this.start(model.widget_manager.get_model(reference.replace("IPY_MODEL_", "")), el);
   }
 
   /**
    * @param {Promise<import("../picture/types.js").PictureModel>} promise
    * @param {HTMLElement} el
-   * @param {(parts: Part[]) => void} requestDraw
    */
-  async start(promise, el, requestDraw) {
+  async start(promise, el) {
     this.canvas.className = "seiswidgets-plot";
     el.prepend(this.canvas);
     const model = await promise;
@@ -63,14 +68,15 @@ export class LivePane {
     /** @type {[string, () => void][]} */
     const handlers = Object.entries(PARTS_BY_TRAIT).map(([trait, parts]) => [
       `change:${trait}`,
-      () => requestDraw(parts),
+      () => this.requestDraw(parts),
     ]);
     handlers.push(["change:changing", () => (this.heldAt = performance.now())]);
     for (const [name, handler] of handlers) model.on(name, handler);
     this.stop = () => {
+      clearTimeout(this.refining);
       for (const [name, handler] of handlers) model.off(/** @type {"change:frame"} */ (name), handler);
     };
-    requestDraw(["picture", "mesh"]);
+    this.requestDraw(["picture", "mesh"]);
   }
 
   /** The picture, once its own script has run. */
@@ -92,9 +98,30 @@ export class LivePane {
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     if (this.pixels.width !== size.width || this.pixels.height !== size.height)
       this.pixels = new ImageData(size.width, size.height);
-    const scene = picture.scene(this.isRestored, model.get("window"));
-    this.drawScene(new Uint32Array(this.pixels.data.buffer), size, scene);
+    const pixels = new Uint32Array(this.pixels.data.buffer);
+    const start = performance.now();
+    const rows = this.rowsAtATime(picture.time, start);
+    const drawn = { width: size.width, height: Math.ceil(size.height / rows) };
+    this.drawScene(pixels, drawn, picture.scene(this.isRestored, model.get("window")));
+    if (rows > 1) repeatRows(pixels, size, rows);
     canvas.getContext("2d")?.putImageData(this.pixels, 0, 0);
+    this.last = { time: picture.time, start, took: (performance.now() - start) * rows };
+  }
+
+  /**
+   * The height in pixels of the rows that are drawn: 1, or while time runs on a slow computer, 2. Then the picture is
+   * drawn finely as soon as it stands still.
+   *
+   * @param {number} time
+   * @param {number} now
+   */
+  rowsAtATime(time, now) {
+    clearTimeout(this.refining);
+    const { last } = this;
+    const isRunning = time !== last.time && now - last.start < SOON;
+    if (!isRunning || last.took < SLOW) return 1;
+    this.refining = setTimeout(() => this.requestDraw(["picture"]), SOON);
+    return 2;
   }
 
   /**
@@ -105,15 +132,26 @@ export class LivePane {
    * @param {import("../picture/scene.js").Scene} scene
    */
   drawScene(pixels, size, scene) {
+    if (scene.isRestored) {
+      drawSection(pixels.fill(0), size, scene);
+      return;
+    }
     const base = [scene.texture, scene.colours, size.width, size.height, ...scene.window];
-    if (scene.isRestored || base.some((value, i) => value !== this.base[i])) {
-      pixels.fill(0);
-      drawSection(pixels, size, scene);
+    if (base.some((value, i) => value !== this.base[i])) {
+      drawSection(pixels.fill(0), size, scene);
+      this.base = base;
+      this.section = pixels.slice();
     } else pixels.set(this.section);
-    if (scene.isRestored) return;
-    this.base = base;
-    this.section = pixels.slice();
     drawRatios(pixels, size, scene);
+  }
+
+  /** The moment that is shown, for the corner of the restored pane; empty at the end. */
+  get moment() {
+    const { picture } = this;
+    if (!picture || !this.isRestored || picture.isAtEnd) return "";
+    const step = Math.max(1, Math.ceil(picture.time));
+    const share = Math.round(100 * (picture.time - step + 1));
+    return picture.time ? ` · step ${step} of ${picture.chain.stages.length}, ${share}%` : " · present day";
   }
 
   get mesh() {
@@ -162,5 +200,19 @@ export class LivePane {
     return marks
       .flatMap((mark) => this.places([[mark.x, mark.z]]).map((at) => at && { ...mark, x: at[0], z: at[1] }))
       .filter((mark) => mark !== null);
+  }
+}
+
+/**
+ * Make the rows of a picture higher, in place.
+ *
+ * @param {Uint32Array} pixels with the low rows at its start
+ * @param {{ width: number, height: number }} size of the picture with high rows
+ * @param {number} rows
+ */
+function repeatRows(pixels, { width, height }, rows) {
+  for (let row = height - 1; row > 0; row--) {
+    const from = Math.floor(row / rows) * width;
+    pixels.copyWithin(row * width, from, from + width);
   }
 }

@@ -14,10 +14,10 @@ import { decodeStroke, drawStrokes } from "./strokes.js";
 
 const REST = 250; // ms without a wheel step or a drag before the picture may be sharpened
 
-/** @typedef {"axes" | "picture" | "mesh" | "strokes" | "marks" | "cursors"} Part */
+/** @typedef {"axes" | "note" | "picture" | "mesh" | "strokes" | "marks" | "cursors"} Part */
 
 /** @type {Part[]} */
-const ALL_PARTS = ["axes", "picture", "mesh", "strokes", "marks", "cursors"];
+const ALL_PARTS = ["axes", "note", "picture", "mesh", "strokes", "marks", "cursors"];
 
 /**
  * The parts that show a trait.
@@ -25,7 +25,7 @@ const ALL_PARTS = ["axes", "picture", "mesh", "strokes", "marks", "cursors"];
  * @type {Partial<Record<keyof import("./types.js").Traits, Part[]>>}
  */
 export const PARTS_BY_TRAIT = {
-  axes: ["axes"],
+  axes: ["axes", "note"],
   label: ["axes"],
   size: ["axes"],
   window: ["picture", "mesh", "strokes", "marks", "cursors"],
@@ -106,6 +106,7 @@ export class LayerView {
   drawParts(outdated) {
     const { model, plotArea, elements, live } = this;
     if (outdated.has("axes")) this.drawAxes();
+    if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
     if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
     if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
@@ -128,7 +129,6 @@ export class LayerView {
   drawAxes() {
     const axes = this.model.get("axes");
     drawAxes(this.elements.axes, axes, this.plotArea);
-    this.elements.note.textContent = axes.note ?? "";
     this.elements.plot.setAttribute("aria-label", this.model.get("label"));
   }
 
