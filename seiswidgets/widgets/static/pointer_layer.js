@@ -1058,7 +1058,7 @@ var LivePane = class {
     this.model = model;
     const handlers = Object.entries(PARTS_BY_TRAIT).map(([trait, parts]) => [
       `change:${trait}`,
-      () => this.requestDraw(parts)
+      trait === "stages" && !this.isRestored ? () => requestAnimationFrame(() => this.requestDraw(parts)) : () => this.requestDraw(parts)
     ]);
     handlers.push(["change:changing", () => this.heldAt = performance.now()]);
     for (const [name, handler] of handlers) model.on(name, handler);

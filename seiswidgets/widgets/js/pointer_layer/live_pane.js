@@ -68,7 +68,9 @@ export class LivePane {
     /** @type {[string, () => void][]} */
     const handlers = Object.entries(PARTS_BY_TRAIT).map(([trait, parts]) => [
       `change:${trait}`,
-      () => this.requestDraw(parts),
+      trait === "stages" && !this.isRestored
+        ? () => requestAnimationFrame(() => this.requestDraw(parts)) // only its colours change: the other pane is first
+        : () => this.requestDraw(parts),
     ]);
     handlers.push(["change:changing", () => (this.heldAt = performance.now())]);
     for (const [name, handler] of handlers) model.on(name, handler);
