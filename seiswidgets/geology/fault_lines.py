@@ -44,11 +44,12 @@ def resample_fine(points: np.ndarray, domain: RestorationDomain) -> np.ndarray:
     Points within the domain's tolerance of a straight line are left out. Where the others still lie too close together,
     each group of them is replaced by its mean, which also smooths the jitter of a hand. The ends stay.
     """
-    lengths = np.hypot(*np.diff(points, axis=0).T)
+    merged = merge_close_points(points, domain.spacing)
+    lengths = np.hypot(*np.diff(merged, axis=0).T)
     step = FINE * min(domain.spacing, lengths.sum() / EDGES)
-    if lengths.min() >= step:
+    if np.min(lengths, initial=np.inf) >= step:
         return points
-    points = shapely.get_coordinates(LineString(points).simplify(domain.tolerance))
+    points = shapely.get_coordinates(LineString(merged).simplify(domain.tolerance))
     groups = [[points[0]]]
     for point in points[1:]:
         if np.hypot(*(point - groups[-1][0])) < step:
