@@ -34,5 +34,6 @@ def crossing_findings(section: Section, horizons: Iterable[Horizon]) -> list[Fin
 
 def _crossings(one: LineString, other: LineString, slack: float) -> list[shapely.Point]:
     """Points at which two lines cross, and that lie farther from all their ends than the slack."""
-    met = [part.interpolate(0.5, True) if part.length else part for part in shapely.get_parts(one.intersection(other))]
+    parts = shapely.get_parts(one.intersection(other))
+    met = [part.interpolate(0.5, normalized=True) if part.length else part for part in parts]
     return [point for point in met if all(slack < line.project(point) < line.length - slack for line in (one, other))]
