@@ -1,6 +1,6 @@
 """Checks of picks and a plan before anything is solved: all findings at once."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from seiswidgets.errors import PickError, SeiswidgetsError
 from seiswidgets.geology.crossings import crossing_findings
@@ -43,7 +43,16 @@ def check(section: Section, interpretation: Interpretation, plan: Plan | None = 
             found += _check_step(start, job, step)
     except SeiswidgetsError as error:
         found.append(_refusal(error))
-    return list(worst_first(dict.fromkeys(found)))
+    return list(worst_first(dict.fromkeys([*found, *_idle_steps(job)])))
+
+
+def _idle_steps(job: RestorationJob) -> Iterator[Finding]:
+    """A note about each step that is on, but none of whose picks is to be used."""
+    for step in job.plan.steps:
+        drawn = job.interpretation.faults if step.kind == UNFAULT else job.interpretation.horizons
+        if step.on and drawn and step not in job.steps:
+            text = f"the step {step.kind} is skipped: the use of none of its picks is 'constrain'"
+            yield Finding("note", "skipped", text)
 
 
 def _check_step(start: Restoration, job: RestorationJob, step: Step) -> Sequence[Finding]:

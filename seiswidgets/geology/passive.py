@@ -25,7 +25,7 @@ def flaws(picks: Iterable[Fault | Horizon]) -> list[PickError]:
 
 def carried_finding(error: PickError) -> Finding:
     """The finding about a pick, or a part of it, that is carried along because of an error."""
-    text = Text(error.text, "; until then it is carried along and constrains nothing there")
+    text = Text(error.text, " (until then it is only carried along)")
     return Finding(SEVERITIES.get(error.kind, "warning"), error.kind or "carried", text, error.pick, error.where)
 
 

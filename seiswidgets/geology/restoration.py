@@ -25,6 +25,7 @@ from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
 from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.transfer import (
+    OUTSIDE,
     area_ratio_at,
     carried_boundaries,
     carried_fault,
@@ -225,14 +226,16 @@ class Restoration:
             unused = PickError("no fault is used as a constraint; set the use of one to 'constrain'")
             raise next(iter(flaws(picks)), unused)
         made, refusals = carry_refused(make_of, *used)
-        return made, (*self._notes(picks), *map(carried_finding, refusals))
+        return made, self._notes(picks, refusals)
 
-    def _notes(self, picks: Sequence[Fault | Horizon]) -> tuple[Finding, ...]:
-        """Notes about picks that are clipped, cross each other, or can only be carried."""
+    def _notes(self, picks: Sequence[Fault | Horizon], refusals: Sequence[PickError] = ()) -> tuple[Finding, ...]:
+        """Notes about picks that are clipped, cross each other, are refused, or can only be carried."""
+        refused = {error.pick for error in refusals}
         flawed = [self._brought_here(carried_finding(flaw)) for flaw in flaws(picks)]
         horizons = [pick for pick in picks if isinstance(pick, Horizon) and pick.constrains]
         crossed = map(self._brought_here, crossing_findings(self.original, horizons))
-        return (*self._clipped(*(pick for pick in picks if pick.constrains)), *flawed, *crossed)
+        clipped = self._clipped(*(pick for pick in picks if pick.constrains and pick.name not in refused))
+        return (*clipped, *flawed, *crossed, *map(carried_finding, refusals))
 
     def _with_stage(self, stage: Stage, notes: Sequence[Finding]) -> "Restoration":
         return replace(self, stages=(*self.stages, stage.with_notes(*notes)))
@@ -331,7 +334,8 @@ class Restoration:
         for index, stage in enumerate(self.stages):
             before = replace(self, stages=self.stages[:index])
             findings += [replace(finding, where=before._origin(finding.where)) for finding in stage.report.findings]
-        return worst_first(findings)
+        once = {(finding.kind, finding.pick, finding.text): finding for finding in reversed(findings)}
+        return worst_first(reversed(once.values()))
 
     def _origin(self, where: tuple[float, float] | None) -> tuple[float, float] | None:
         """Carry a position in the restored section, or one beside it, back to the original; None outside."""
@@ -420,12 +424,20 @@ class Restoration:
         return [(target, source, triangles) for source, target, triangles in reversed(self.maps_to_restored)]
 
     def carried(self, pick: Fault | Horizon) -> list[np.ndarray]:
-        """Lines of a fault or a horizon after all stages, each of shape (n, 2), in the section's units."""
-        if isinstance(pick, Fault):
-            first = self.stages[0].domain if self.stages else None
-            lines = [LineString(carried_fault(self.original, self.stages, pick, first))]
-        else:
-            lines = carried_horizon(self.original, self.stages, pick)
+        """Lines of a fault or a horizon after all stages, each of shape (n, 2), in the section's units.
+
+        There are none if it lies outside the section.
+        """
+        try:
+            if isinstance(pick, Fault):
+                first = self.stages[0].domain if self.stages else None
+                lines = [LineString(carried_fault(self.original, self.stages, pick, first))]
+            else:
+                lines = carried_horizon(self.original, self.stages, pick)
+        except PickError as error:
+            if error.kind != OUTSIDE:
+                raise
+            return []
         return [self.original.from_rock(shapely.get_coordinates(line)) for line in lines]
 
     def __repr__(self) -> str:

@@ -20,6 +20,8 @@ from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
 
+OUTSIDE = "outside"  # kind of the errors about picks that are not in the rock
+
 
 def carried_fault(
     original: Section, stages: Sequence[Stage], fault: Fault, domain: RestorationDomain | None = None
@@ -40,6 +42,7 @@ def carried_fault(
     if not lines:
         raise PickError(
             f"nothing is left of fault {fault.name!r} after the stages before; it lies outside the rock",
+            kind=OUTSIDE,
             pick=fault.name,
         )
     return shapely.get_coordinates(lines)
@@ -85,6 +88,7 @@ def _outside(original: Section, what: str, pick: Fault | Horizon) -> PickError:
     x, z = (pick.points if isinstance(pick, Fault) else pick.pieces[0])[0].tolist()
     return PickError(
         f"{what} lies outside the section, which reaches from {original.reach}; leave it out, or check its coordinates",
+        kind=OUTSIDE,
         pick=pick.name,
         where=(x, z),
     )

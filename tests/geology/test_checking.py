@@ -34,6 +34,8 @@ def test_picks_that_are_only_carried_are_not_checked():
     carried = [sw.Horizon(*bed.pieces, name=bed.name, use="carry") for bed in (ONE_SIDED, SWAPPED, CROSSING)]
     faults = [sw.Fault(fault.points, name=fault.name, use="ignore") for fault in (UNCROSSED, LOOPED)]
     assert found([FAULT, *faults], [HORIZON, *carried]) == []
+    assert found(faults, carried) == [("note", "skipped", None)] * 2
+    assert sw.Plan().restore(SECTION, sw.Interpretation(faults, carried)).stages == ()
 
 
 @pytest.mark.parametrize(
@@ -51,6 +53,29 @@ def test_what_prevents_a_step_is_a_problem(plan, problem):
 def test_nothing_is_determined():
     assert found([FAULT], []) == [("problem", "undetermined", "F1")]
     assert found([], [sw.Horizon([(0, 10), (20, 10)], name="H")]) == [("problem", "refused", "H")]
+
+
+def test_steps_that_can_be_done_are_done():
+    looped = sw.Interpretation([LOOPED], [HORIZON])
+    restored = sw.Plan().restore(SECTION, looped)
+    assert [stage.kind for stage in restored.stages] == ["flatten"]
+    assert "but fault 'F3' crosses itself near" in restored.verdict
+    with pytest.raises(sw.PickError, match="fault 'F3' crosses itself"):
+        sw.Plan((sw.Step("unfault"),)).restore(SECTION, looped)
+
+
+def test_a_flaw_is_found_once_whatever_the_number_of_steps():
+    flawed = sw.Horizon(*HORIZON.pieces, LOOPED.points, name="H1")
+    restored = sw.Plan().restore(SECTION, sw.Interpretation([FAULT], [flawed]))
+    assert [stage.kind for stage in restored.stages] == ["unfault", "flatten"]
+    assert [finding.kind for finding in restored.findings if finding.severity == "warning"] == ["carried"]
+
+
+def test_a_pick_outside_the_section_has_no_lines():
+    outside = sw.Fault([(2000, 0), (2100, 500)], name="F4")
+    restored = sw.Restoration(SECTION).unfault([FAULT, outside], HORIZON)
+    assert restored.carried(outside) == []
+    assert [finding.kind for finding in restored.findings if finding.pick == "F4"] == ["outside"]
 
 
 def test_the_restoration_has_the_findings_of_the_check():

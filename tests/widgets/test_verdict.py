@@ -230,7 +230,7 @@ def test_contradicting_picks_are_a_problem_in_the_app(app, case):
     assert 'role="alert"' in app.status.line.value
     assert "'rising' contradicts horizon 'falling'" in app.status.text
     assert app.panes.restored.badge.severity == "problem"
-    assert "until then it is carried along" in app.picker.list.rows("horizon")["rising"].message.value
+    assert "until then it is only carried along" in app.picker.list.rows("horizon")["rising"].message.value
     app.interpretation = case.interpretation
     assert app.wait(LONG)
     assert app.status.text == GOOD_TEXT
