@@ -85,6 +85,14 @@ def test_a_format_of_another_size_is_named(save, true, stated):
     np.testing.assert_array_equal(opened(path, sample_format=true).amplitude.T, traces)
 
 
+@pytest.mark.parametrize(("true", "stated"), [("f4", "i2"), ("ibm", "i1"), ("i2", "f4")])
+@pytest.mark.parametrize("samples", [100, 120])
+def test_a_format_of_another_size_is_named_without_counts_in_trace_headers(save, true, stated, samples):
+    traces = (np.rint if true == "i2" else np.array)(waves("band", 60)[:, :samples])
+    with pytest.raises(sw.DataError, match=rf"fit samples of \d bytes?: give sample_format=.*'{true}'"):
+        opened(save(traces, true, stated, counted=False))
+
+
 @pytest.mark.parametrize("given", ["ieee", "f4", 5, ">f4"])
 def test_a_format_that_the_header_does_not_state_is_asked_for(save, given):
     path = save(waves("band", 1), "f4", 0)

@@ -9,6 +9,7 @@ from seiswidgets.io.segy.formats import FORMATS, SampleFormat
 from seiswidgets.io.segy.traces import TraceHeaders
 
 TRACES, SAMPLES = 32, 2000  # that are compared: traces, and samples in the middle of each
+FEWEST = 8  # samples of a trace, without which nothing is concluded
 ENOUGH = 50  # different amplitudes, without which nothing is concluded
 PLAUSIBLE = (1e-18, 1e18)  # size of an amplitude
 MOST_IMPLAUSIBLE = 0.02  # share of the amplitudes
@@ -42,7 +43,7 @@ def format_doubt(headers: TraceHeaders, traces: np.ndarray) -> FormatDoubt | Non
     """Compare the sample format with others of the same size; None if it is plausible."""
     layout = headers.layout
     stated = FORMATS[layout.code]
-    if stated.name not in ALTERNATIVES:
+    if stated.name not in ALTERNATIVES or layout.samples < FEWEST:
         return None
     start = max(0, (layout.samples - SAMPLES) // 2)
     chosen = traces[np.unique(np.linspace(0, len(traces) - 1, TRACES).astype(int))].tolist()
@@ -97,7 +98,8 @@ def _is_plausible(values: np.ndarray) -> bool:
 
 def _are_floats(integers: np.ndarray) -> bool:
     """Check whether integers of four bytes are the bits of floats of common sizes, without any value near 0."""
-    return bool(np.mean(np.abs(integers[integers != 0]) >= FLOATS_AS_INTEGERS) > 1 - MOST_IMPLAUSIBLE)
+    sizes = np.abs(integers[integers != 0])
+    return bool(np.mean(sizes >= FLOATS_AS_INTEGERS) > 1 - MOST_IMPLAUSIBLE)
 
 
 def _roughness(values: np.ndarray) -> float:

@@ -14,6 +14,7 @@ from seiswidgets.io.segy.formats import FORMATS, HEADERS, TEXT, TRACE_HEADER, re
 
 CHECKED = 64  # trace headers whose number of samples is checked
 MOST_PADDING = 2**20  # bytes after the last trace
+MOST_UNCOUNTED = 40  # further textual headers if the binary header does not state their number
 MOST_TEXTS = 1000  # further textual headers that revision 0 may have, if the file's size confirms them
 
 
@@ -27,6 +28,8 @@ class Arrangement:
         Bytes before the first trace, samples per trace, whole traces, and bytes left after them.
     agreement : float
         Mean over some trace headers: 1 for each that states this number of samples, 0 for none, -1 for another.
+    silent : bool
+        Whether none of these headers states a number.
     padded : bool
         Whether the bytes left are not the beginning of a trace.
     zeros : bool
@@ -38,13 +41,20 @@ class Arrangement:
     traces: int
     rest: int
     agreement: float
+    silent: bool
     padded: bool
     zeros: bool
 
-    @property
-    def is_certain(self) -> bool:
-        """True if the size confirms this exactly, and so do the headers of several traces."""
-        return self.traces > 1 and not self.rest and self.agreement == 1
+    def is_better_than(self, other: "Arrangement | None") -> bool:
+        """Check whether size and trace headers confirm this exactly, and another one less well.
+
+        If trace headers do not state numbers of samples, zeros in all of them confirm it better than other numbers.
+        """
+        if self.traces < 2 or self.rest or not (self.agreement == 1 or self.silent):
+            return False
+        if other is None:
+            return True
+        return (self.agreement == 1 and self.traces > other.traces) or other.agreement < min(self.agreement, 1)
 
     @property
     def fits(self) -> bool:
@@ -73,10 +83,11 @@ def find_arrangement(path: Path, head: bytes, order: str, code: int) -> Arrangem
         )
     fitting = [each for each in tried if each.fits]
     best = max(fitting, key=lambda each: each.agreement, default=None)  # of equals the first, which the header states
-    for size in {each.size for each in FORMATS.values()} - {itemsize}:
-        certain = (each for each in arrangements(path, head, order, size) if each.is_certain)
-        if any(best is None or best.agreement < 1 or each.traces > best.traces for each in certain):
-            raise DataError(*_other_size(path, code, size), kind="samples")
+    sizes = {each.size for each in FORMATS.values()} - {itemsize}
+    others = [(each, size) for size in sizes for each in arrangements(path, head, order, size)]
+    better = [(each.agreement, each.traces, size) for each, size in others if each.is_better_than(best)]
+    if better:
+        raise DataError(*_other_size(path, code, max(better)[2]), kind="samples")
     if best is None:
         raise DataError(_misfit(path, tried[0], itemsize))
     return best
@@ -97,10 +108,8 @@ def _starts(path: Path, head: bytes, order: str) -> list[int]:
     (texts,) = struct.unpack_from(f"{order}h", head, 3504)
     if not revision(head):  # where these bytes are unassigned: the file's size must confirm them
         return [HEADERS] + [HEADERS + TEXT * texts] * (1 <= texts <= MOST_TEXTS)
-    if texts < 0:
-        raise DataError(
-            f"{path} has an unknown number of further textual headers (bytes 3505-3506); write it again without them"
-        )
+    if texts < 0:  # an unknown number, which the trace headers reveal
+        return [HEADERS + TEXT * count for count in range(MOST_UNCOUNTED)]
     return [HEADERS + TEXT * texts] + [HEADERS] * (texts > 0)
 
 
@@ -133,7 +142,7 @@ def _arrangement(file: BinaryIO, first: int, samples: int, itemsize: int, order:
     left = file.read(min(rest, MOST_PADDING)) if agreement == 1 else b""
     begins_a_trace = left[114:116] == struct.pack(f"{order}H", samples & 0xFFFF)
     padded = agreement == 1 and rest <= MOST_PADDING and not begins_a_trace
-    return Arrangement(first, samples, traces, rest, agreement, padded, zeros=not left.strip(b"\0"))
+    return Arrangement(first, samples, traces, rest, agreement, not own.any(), padded, not left.strip(b"\0"))
 
 
 def _misfit(path: Path, tried: Arrangement, itemsize: int) -> str:
