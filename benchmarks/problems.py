@@ -9,7 +9,7 @@ import seiswidgets as sw
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.solver import gauss_newton
 from seiswidgets.geology import flattening, unfaulting
-from seiswidgets.geology.solve import TOLERANCE
+from seiswidgets.geology.solve import SETTLED
 
 
 @dataclass
@@ -49,7 +49,7 @@ def _problem(case, spacing, fixed, options):
         return rigid_blocks(*call)
 
     def caught(mesh, terms, start, free, domain, *_, **options):
-        raise Problem(mesh, terms, start, free, TOLERANCE * domain.spacing, calls)
+        raise Problem(mesh, terms, start, free, SETTLED * domain.slack, calls)
 
     picks, start = case.interpretation, sw.Restoration(case.section, spacing=spacing)
     changes = [

@@ -11,10 +11,11 @@ from shapely import LineString
 
 from seiswidgets.core.junctions import NOTHING, Continuation
 from seiswidgets.core.mesh import Mesh
-from seiswidgets.core.term import MOVING, PaperTerm
+from seiswidgets.core.term import MOVING, Layer, PaperTerm
 from seiswidgets.core.terms import coordinates, sparse_rows
 
-STAY = 0.1  # of a segment's length
+RETURNED = 0.1  # of a segment's length
+BEYOND = 1e-6  # weight of the distance beyond a segment's end: of two at the same corner the less overshot is nearer
 
 
 def _unchosen() -> np.ndarray:
@@ -75,15 +76,17 @@ class Contact(PaperTerm):
     def with_contacts(self, vertices: np.ndarray) -> "Contact":
         """Hold each point to the segment that is nearest to it now.
 
-        A partner is kept while the point's foot is on it or a little beyond. That margin doubles each time a point
-        returns to the partner it has just left: otherwise two segments of a bent fault could alternate for ever.
+        Where two segments meet, their distances are equal on the bisector, so that the energy is continuous if a point
+        changes its partner there. A partner to which a point has returned is kept while the point's foot is on it or a
+        little beyond, by a margin that doubles with each return: otherwise two segments could alternate for ever.
         Points beyond an end of their own fault are held to the nearest segment of those that continue it, if any.
         """
         along, _, _, _ = self._feet(vertices, self.points[:, None], self.segments[None])
         clipped = np.clip(along, 0, 1)
         start, stop = vertices[self.segments[:, 0]], vertices[self.segments[:, 1]]
         away = vertices[self.points][:, None] - start - clipped[..., None] * (stop - start)
-        squared, past = np.sum(away**2, axis=2), np.abs(along - clipped)
+        past = np.abs(along - clipped)
+        squared = np.sum(away**2, axis=2) + BEYOND * past**2 * np.sum((stop - start) ** 2, axis=1)
         partner, end = self._choose(slice(0, self.own), along, past, squared)
         if len(self.continued):
             continuing, _ = self._choose(slice(self.own, None), along, past, squared)
@@ -95,23 +98,23 @@ class Contact(PaperTerm):
     ) -> tuple[np.ndarray, np.ndarray]:
         """Index of the segment, of some, that each point is held to, or -1 and the end of theirs that it is beyond."""
         nearest = np.argmin(squared[:, among], axis=1) + among.start
-        stay: float | np.ndarray = STAY
+        stay: float | np.ndarray = 0.0
         if self._chosen:
             stay = self.stay
             eligible = (self.partner >= among.start) & (self.partner < (among.stop or len(self.segments)))
             kept = eligible & (past[np.arange(len(nearest)), self.partner] < stay)
             nearest = np.where(kept, self.partner, nearest)
         foot, ends = along[np.arange(len(nearest)), nearest], self._open[nearest]
-        reach = stay - STAY + 1e-9
+        reach = stay + 1e-9
         first, last = ends[:, 0] & (foot < -reach), ends[:, 1] & (foot > 1 + reach)
         end = np.where(first, self.segments[nearest, 0], np.where(last, self.segments[nearest, 1], -1))
         return np.where(end < 0, nearest, -1), end
 
     def _hold(self, partner: np.ndarray) -> "Contact":
         if not self._chosen:
-            return replace(self, partner=partner, former=partner, stay=np.full(len(partner), STAY))
+            return replace(self, partner=partner, former=partner, stay=np.zeros(len(partner)))
         left = partner != self.partner
-        stay = np.where(left & (partner == self.former), 2 * self.stay, self.stay)
+        stay = np.where(left & (partner == self.former), np.maximum(2 * self.stay, RETURNED), self.stay)
         return replace(self, partner=partner, former=np.where(left, self.partner, self.former), stay=stay)
 
     def _feet(
@@ -167,6 +170,30 @@ class Contact(PaperTerm):
         by_stop = -foot * normal - slope * (distance * normal - foot * along)
         data = self.weight * np.hstack([by_point, -by_point - by_stop, by_stop])
         return sparse_rows(coordinates(np.column_stack([points, segments])), data, vertices.size)
+
+    def curvature(self, vertices: np.ndarray) -> Sequence[Layer]:
+        """Second derivatives, as in `Term`.
+
+        With the segment u and the point's arm w as complex numbers, w/u = t + i d/L holds the foot t and the distance d
+        over the length L. To first order it changes by -b and to second order by a b, where a = du/u and
+        b = a w/u - dw/u.
+        """
+        points, segments = self._pairs()
+        foot, distance, normal, along = self._feet(vertices, points, segments)
+        length = np.hypot(*along.T)[:, None]
+        tangent, normal, none = along / length**2, normal / length, np.zeros_like(along)
+        stretch, turn = np.hstack([none, -tangent, tangent]), np.hstack([none, -normal, normal])
+        foot, offset = foot[:, None], distance[:, None] / length
+        back = foot * stretch - offset * turn - np.hstack([tangent, -tangent, none])
+        aside = foot * turn + offset * stretch - np.hstack([normal, -normal, none])
+        linear, square = self._held_bulge[:, 1:2], self._held_bulge[:, 2:]
+        slope = linear + 2 * square * foot
+        products = [
+            (length * back, turn - (slope * stretch + square * back) / length),
+            (turn * length, offset / 2 * turn + slope / length * aside),
+        ]
+        factor = 0.5 * self.weight * self.residual(vertices)
+        return [((one + sign * other).ravel(), sign * factor) for one, other in products for sign in (1, -1)]
 
     @cached_property
     def rows(self) -> csr_array:

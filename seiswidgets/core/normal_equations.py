@@ -1,13 +1,17 @@
 """The normal equations of a nonlinear least squares problem, assembled quickly again and again."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array
 
-from seiswidgets.core.cholesky import Cholesky
+from seiswidgets.core.cholesky import Cholesky, NotPositiveDefinite
 from seiswidgets.core.term import CONSTANT, MOVING, Layer, Term
+from seiswidgets.core.trust_region import Operator, truncated_newton
+
+LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the median diagonal; the least only tames motions that cost nothing
 
 
 class Gram:
@@ -80,11 +84,26 @@ def _transposed_product(matrix: csr_array, vector: np.ndarray) -> np.ndarray:
     return np.bincount(matrix.indices, products, minlength=matrix.shape[1])
 
 
-class NormalEquations:
-    """Solver of (J^T J + B + damping) step = -J^T r for the unknown coordinates, at one position after another.
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """Springs that resist a step's stretching of edges; a step that turns no triangle over needs none.
 
-    B are the second derivatives of the terms (``curvature``): without them Gauss-Newton converges slowly where large
-    residuals remain, as in a tight fold.
+    Attributes
+    ----------
+    edges : array, shape (k, 2)
+    stiffness : array, shape (k,)
+    """
+
+    edges: np.ndarray
+    stiffness: np.ndarray
+
+
+class NormalEquations:
+    """Solver of (J^T J + B) step = -J^T r for the unknown coordinates, at one position after another.
+
+    B are the second derivatives of the terms (``curvature``). Without them the step is Gauss-Newton's, which converges
+    slowly where large residuals remain, as in a tight fold. With them it is Newton's, by conjugate gradients whose
+    preconditioner is the Cholesky factor with the convex part of B alone: so nothing indefinite is ever factorised.
 
     The pattern of J^T J is found once for the terms whose Jacobians keep theirs, and widened only when a moving
     term needs a new entry; the matrix is then analysed again, in the same order of elimination.
@@ -192,31 +211,76 @@ class NormalEquations:
         self._unchanging[shifted] = unchanging
         self._set_pattern(wider)
 
-    def step(self, damping: float, bending: float | None = None) -> np.ndarray:
-        """The damped step, shape (n, 2); 0 for held coordinates.
+    def factorise(self, springs: Springs | None = None, *, curved: bool = False) -> None:
+        """Factorise J^T J, with springs and the convex part of the second derivatives.
 
-        Parameters
-        ----------
-        damping : float
-            Added to the diagonal, in units of its median: a few heavy rows must not stiffen soft rock elsewhere.
-        bending : float, optional
-            Share of the negative second derivatives, those of what is shortened. With 1, and all of the positive ones,
-            the step is Newton's; with less the matrix is more likely to be positive definite. Without it the step is
-            Gauss-Newton's.
-
-        Raises
-        ------
-        NotPositiveDefinite
+        The diagonal is raised a little, in units of its median, to hold motions that cost nothing.
         """
-        values = self._values.copy()
-        if bending is not None:
-            for gram, entries, (data, factor) in self._bent:
-                convex = np.where(factor > 0, factor, bending * factor)
-                values += self._add_up(entries, gram.products(data, convex))
-        if self.size:
-            values[self._diagonal] += damping * np.median(self._values[self._diagonal])
-        self.factorisations += 1
-        self._cholesky.factorise(values)
+        values = self._values + self._bending(1) if curved else self._values.copy()
+        if springs is not None:
+            values += self._spring_values(springs)
+        self._factorised, damping = values, LEAST_DAMPING
+        while True:
+            if self.size:
+                values[self._diagonal] += damping * np.median(self._values[self._diagonal])
+            self.factorisations += 1
+            try:
+                return self._cholesky.factorise(values)
+            except NotPositiveDefinite:
+                if damping > MOST_DAMPING:
+                    raise
+                damping *= 100
+
+    def _bending(self, sign: int) -> np.ndarray:
+        """Values of the convex (1) or concave (-1) part of the second derivatives."""
+        values = np.zeros(len(self._keys))
+        for gram, entries, (data, factor) in self._bent:
+            values += self._add_up(entries, gram.products(data, sign * np.maximum(sign * factor, 0)))
+        return values
+
+    def _spring_values(self, springs: Springs) -> np.ndarray:
+        """Values of the springs; what the pattern lacks of them is left out, which only stiffens them."""
+        columns = np.concatenate([2 * springs.edges, 2 * springs.edges + 1])
+        data = np.tile([1.0, -1.0], len(columns))
+        pointers = 2 * np.arange(len(columns) + 1)
+        rows = csr_array((data, columns.ravel(), pointers), shape=(len(columns), len(self._unknown)))
+        gram = Gram(rows, self._unknown, self.size)
+        products = gram.products(data, np.tile(springs.stiffness, 2))
+        entries = np.minimum(np.searchsorted(self._keys, gram.keys), len(self._keys) - 1)
+        known = self._keys[entries] == gram.keys
+        return self._add_up(entries[known], products[known])
+
+    def step(self) -> np.ndarray:
+        """The step of the factorised matrix, shape (n, 2); 0 for held coordinates."""
+        return self._all_coordinates(-self._cholesky.solve(self._gradient))
+
+    def newton_step(self, radius: float) -> tuple[np.ndarray, float, bool]:
+        """Newton's step within a radius; call ``factorise(curved=True)`` before.
+
+        Returns
+        -------
+        step : array, shape (n, 2)
+        norm : float
+            Length of the step in the norm of the factorised matrix, as the radius.
+        limited : bool
+            True if it is limited by the radius, or by negative curvature.
+        """
+        found = truncated_newton(self._gradient, self.hessian(), self._cholesky.solve, radius)
+        return self._all_coordinates(found.step), found.norm, found.limited
+
+    def hessian(self) -> Operator:
+        """Product of a vector of unknowns with J^T J + B, and the springs of ``factorise(curved=True)``."""
+        values = self._factorised + self._bending(-1)
+        columns, rows = np.divmod(self._keys, max(self.size, 1))
+        lower = csc_array((values, (rows, columns)), shape=(self.size, self.size))
+        upper, diagonal = lower.T, values[self._diagonal]
+        return lambda vector: lower @ vector + upper @ vector - diagonal * vector
+
+    def slope(self, step: np.ndarray) -> float:
+        """Derivative of the energy along a step; negative."""
+        return float(2 * self._gradient @ step.ravel()[self._coordinates])
+
+    def _all_coordinates(self, unknowns: np.ndarray) -> np.ndarray:
         step = np.zeros(len(self._unknown))
-        step[self._coordinates] = -self._cholesky.solve(self._gradient)
+        step[self._coordinates] = unknowns
         return step.reshape(-1, 2)

@@ -6,18 +6,20 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array, tril, vstack
 
-from seiswidgets.core.cholesky import Cholesky, Cholmod, NotPositiveDefinite, SuperLU
+from seiswidgets.core.cholesky import Cholesky, Cholmod, SuperLU
 from seiswidgets.core.mesh import triangle_areas
-from seiswidgets.core.normal_equations import NormalEquations
+from seiswidgets.core.normal_equations import NormalEquations, Springs
 from seiswidgets.core.term import PaperTerm, Term
 from seiswidgets.errors import Cancelled
 
-LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6  # of the median diagonal; the least only tames motions that cost nothing
-LEAST_BENDING = 0.1  # share of the second derivatives that is worth trying
-HALVINGS = 5
+SLOW = 0.8  # share of the energy left by a step: above it, the next step includes second derivatives
+KEPT = 0.1  # of its area: a step leaves at least this much of each triangle
+STIFFENINGS, STIFFNESS = 2, 3.0  # how often, and from what stiffness, triangles that would lose more are stiffened
+SUFFICIENT = 1e-4  # of the decrease that the slope promises
+HALVINGS = 12
 ROUNDING = 1e-11  # of an energy: changes below this are noise
-IDLE, IDLE_STEPS, IDLE_MOVE = 1e-9, 5, 100  # share of the energy, number of steps that gain less, their tolerances
-SLOW = 0.8  # share of the energy left by a step: above it, much of the residual will remain
+NEGLIGIBLE = 1e-8  # of the energy
+GOOD, POOR = 0.75, 0.25  # actual over predicted decrease
 
 Progress = Callable[[int, float, np.ndarray], bool | None]
 
@@ -33,8 +35,7 @@ class Solution:
         With the contacts of the last iteration.
     iterations, factorisations : int
     converged : bool
-        True if the last full step moved no vertex by more than the tolerance, or the last few steps hardly more than
-        that and without any gain.
+        True if the last step moved no vertex by more than the tolerance, and had nothing more to gain.
     energies : tuple of float
         The energy at the start and after each iteration.
     """
@@ -67,14 +68,15 @@ def update_contacts(terms: Sequence[Term], vertices: np.ndarray) -> list[Term]:
     return [term.with_contacts(vertices) for term in terms]
 
 
-def first_flip(vertices: np.ndarray, step: np.ndarray, triangles: np.ndarray) -> float:
-    """Share of a step at which the first triangle loses all its area, or infinity if none does.
+def first_flip(vertices: np.ndarray, step: np.ndarray, triangles: np.ndarray, kept: float = 0.0) -> float:
+    """Share of a step at which the first triangle keeps only a share of its area, or infinity if none does.
 
     A triangle's area along a straight step is a quadratic; this is the least positive root of all of them.
     """
-    constant = triangle_areas(vertices, triangles)
+    areas = triangle_areas(vertices, triangles)
     square = triangle_areas(step, triangles)
-    linear = triangle_areas(vertices + step, triangles) - constant - square
+    linear = triangle_areas(vertices + step, triangles) - areas - square
+    constant = (1 - kept) * areas
     root = np.full(len(triangles), np.inf)
     discriminant = linear**2 - 4 * square * constant
     falls = (discriminant >= 0) & ((linear < 0) | (square < 0))
@@ -92,15 +94,14 @@ def gauss_newton(
     max_iterations: int = 200,
     progress: Progress | None = None,
 ) -> Solution:
-    """Minimise the energy by damped Gauss-Newton steps that never turn a triangle over.
+    """Minimise the energy by Gauss-Newton and Newton steps that never turn a triangle over.
 
-    After a step that has left most of the energy, the next one includes second derivatives and is Newton's (Fletcher
-    and Xu, Hybrid methods for nonlinear least squares, 1987): Gauss-Newton alone is slow where residuals stay large.
+    Gauss-Newton is fast until the residuals that must remain dominate. After a step that has left most of the energy,
+    the next one includes the second derivatives of all terms, within a trust region.
 
-    Where a vertex in contact lies at the corner between two segments, or a triangle at the barrier's onset, the second
-    derivatives jump, and steps may alternate a little above the tolerance for ever. So the solver has also converged
-    when five successive steps, none of them damped, have each moved no vertex by more than 100 times the tolerance and
-    gained less than 1e-9 of the energy.
+    Few triangles, such as those at the tip of a fault, may lose all their area long before the rest has arrived. They
+    are made stiffer for this step and the next ones, so that they turn and shift with their surroundings; only what
+    remains to be limited shortens the whole step.
 
     Parameters
     ----------
@@ -111,7 +112,8 @@ def gauss_newton(
     free : array of bool, shape (n,) or (n, 2)
         The vertices that may move, or the coordinates that may change.
     tolerance : float
-        Stop when a full step moves no vertex farther than this, in metres.
+        Stop when a step moves no vertex farther than this, in metres, unless it was shortened and would still lower the
+        energy noticeably.
     progress : callable(iteration, energy, vertices), optional
         Called after each iteration; returning False cancels.
 
@@ -119,98 +121,142 @@ def gauss_newton(
     ------
     Cancelled
     """
-    vertices, control = np.array(start, float), StepControl()
+    vertices = np.array(start, float)
     terms = update_contacts(terms, vertices)
     equations = NormalEquations(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
     left = residuals(terms, vertices)
-    energies, converged, iteration, idle = [sum_of_squares(left)], False, 0, 0
+    energies, converged, iteration = [sum_of_squares(left)], False, 0
+    stepper = Stepper(equations, triangles)
     while not converged and iteration < max_iterations:
         equations.update(terms, vertices, left)
-        curved = len(energies) > 1 and energies[-1] > SLOW * energies[-2]
-        descent = _descend(equations, terms, vertices, energies[-1], triangles, control, tolerance, curved)
+        step = stepper.step(vertices, curved=len(energies) > 1 and energies[-1] > SLOW * energies[-2])
+        descent = _search_line(step, vertices, terms, triangles, energies[-1], tolerance)
         if descent is None:
             break
-        moved, left, full = descent
-        move = _farthest(moved - vertices)
-        vertices, iteration, before = moved, iteration + 1, terms
+        length, left = descent
+        stepper.adapt(step, length, energies[-1] - sum_of_squares(left))
+        converged = step.settles(length, tolerance, energies[-1])
+        vertices, iteration, before = vertices + length * step.vector, iteration + 1, terms
         terms = update_contacts(terms, vertices)
         left = [
             residual if term is old else term.residual(vertices)
             for term, old, residual in zip(terms, before, left, strict=True)
         ]
         energies.append(sum_of_squares(left))
-        gained = energies[-1] < (1 - IDLE) * energies[-2]
-        idle = 0 if gained or control.damping > LEAST_DAMPING or move > IDLE_MOVE * tolerance else idle + 1
-        converged = (full and move <= tolerance) or idle == IDLE_STEPS
         _report_progress(progress, iteration, energies[-1], vertices)
     return Solution(vertices, terms, iteration, equations.factorisations, converged, tuple(energies))
 
 
-@dataclass
-class StepControl:
-    """Safeguards of a step: damping, and the share of second derivatives that may make the matrix indefinite."""
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A step, before its length is chosen.
 
-    damping: float = LEAST_DAMPING
-    bending: float = 1.0
-
-    def make_convex(self) -> None:
-        """React to a matrix that was not positive definite."""
-        if self.bending > 0:
-            self.bending = self.bending / 2 if self.bending > LEAST_BENDING else 0.0
-        else:
-            self.damp()
-
-    def damp(self) -> None:
-        """React to a step that did not lower the energy."""
-        self.damping *= 100
-
-    def relax(self) -> None:
-        """React to a step that lowered the energy."""
-        self.damping = max(self.damping / 10, LEAST_DAMPING)
-        self.bending = min(3 * max(self.bending, LEAST_BENDING), 1.0)
-
-
-def _descend(
-    equations: NormalEquations,
-    terms: Sequence[Term],
-    vertices: np.ndarray,
-    height: float,
-    triangles: np.ndarray,
-    control: StepControl,
-    tolerance: float,
-    curved: bool,
-) -> tuple[np.ndarray, list[np.ndarray], bool] | None:
-    """Step to less energy than ``height``, or return None if no step leads there.
-
-    A step within the tolerance is accepted as it is: rounding would hide its gain.
-
-    Returns
-    -------
-    vertices : array, shape (n, 2)
-    residuals : list of array
-    full : bool
-        True for a whole step that was not damped.
+    Attributes
+    ----------
+    vector : array, shape (n, 2)
+    slope : float
+        Derivative of the energy along it.
+    norm : float
+        Its length in the solver's own norm, infinite for a Gauss-Newton step.
+    limited : bool
+        True if the trust region limits it.
     """
-    allowed = height * (1 + ROUNDING)
-    while control.damping <= MOST_DAMPING:
-        try:
-            step = equations.step(control.damping, control.bending if curved else None)
-        except NotPositiveDefinite:
-            control.make_convex() if curved else control.damp()
-            continue
-        undamped = control.damping == LEAST_DAMPING
-        length = min(1.0, 0.9 * first_flip(vertices, step, triangles))
-        settled = undamped and length == 1 and _farthest(step) <= tolerance
-        for _ in range(HALVINGS):
-            moved = vertices + length * step
-            if settled or triangle_areas(moved, triangles).min() > 0:
-                left = residuals(terms, moved)
-                if settled or sum_of_squares(left) <= allowed:
-                    control.relax()
-                    return moved, left, undamped and length == 1
-            length /= 2
-        control.damp()
-    return None
+
+    vector: np.ndarray
+    slope: float
+    norm: float = np.inf
+    limited: bool = False
+
+    @property
+    def farthest(self) -> float:
+        """Largest change of a coordinate."""
+        return _farthest(self.vector)
+
+    def settles(self, length: float, tolerance: float, energy: float) -> bool:
+        """Test if nothing moves noticeably by this step, and nothing more is to be gained."""
+        if self.farthest <= tolerance and not self.limited:
+            return True
+        return length * self.farthest <= tolerance and -self.slope <= NEGLIGIBLE * energy
+
+
+class Stepper:
+    """Maker of steps, with what it has learnt from the steps before: stiff triangles, and the trust region's radius."""
+
+    def __init__(self, equations: NormalEquations, triangles: np.ndarray):
+        self._equations, self._triangles = equations, triangles
+        self._edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        self._stiffness = np.zeros(len(triangles))
+        self._radius = np.inf
+
+    def step(self, vertices: np.ndarray, *, curved: bool) -> Step:
+        """Factorise and solve, again if triangles have to be stiffened."""
+        least = KEPT * triangle_areas(vertices, self._triangles)
+        for remaining in reversed(range(STIFFENINGS + 1)):
+            self._equations.factorise(self._springs, curved=curved)
+            vector = self._equations.step()
+            collapsing = triangle_areas(vertices + vector, self._triangles) < least
+            if not remaining or not collapsing.any():
+                break
+            self._stiffness[collapsing] = np.maximum(10 * self._stiffness[collapsing], STIFFNESS)
+        if not curved:
+            return Step(vector, self._equations.slope(vector))
+        vector, norm, limited = self._equations.newton_step(self._radius)
+        return Step(vector, self._equations.slope(vector), norm, limited)
+
+    @property
+    def _springs(self) -> Springs | None:
+        stiff = np.repeat(self._stiffness > 0, 3)
+        return Springs(self._edges[stiff], np.repeat(self._stiffness, 3)[stiff]) if stiff.any() else None
+
+    def adapt(self, step: Step, length: float, gained: float) -> None:
+        """Learn from a step's length and gain."""
+        self._stiffness *= 0.1
+        self._stiffness[self._stiffness < 1e-3] = 0
+        promised = -0.5 * step.slope  # what a quadratic model gains by its full step
+        if not np.isfinite(step.norm):
+            return
+        if length != 1:
+            self._radius = length * step.norm
+        elif gained < POOR * promised:
+            self._radius = 0.5 * step.norm
+        elif gained > GOOD * promised and step.limited:
+            self._radius = 4 * step.norm
+
+
+def _search_line(
+    step: Step, vertices: np.ndarray, terms: Sequence[Term], triangles: np.ndarray, height: float, tolerance: float
+) -> tuple[float, list[np.ndarray]] | None:
+    """Find a length of the step that lowers the energy, and the residuals there; None if there is none.
+
+    A step within the tolerance is accepted as it is: rounding would hide its gain. A full step that gains is doubled
+    as long as it gains more.
+    """
+
+    def evaluate(length: float) -> tuple[float, list[np.ndarray]]:
+        moved = vertices + length * step.vector
+        if triangle_areas(moved, triangles).min() <= 0:
+            return np.inf, []
+        left = residuals(terms, moved)
+        return sum_of_squares(left), left
+
+    longest = first_flip(vertices, step.vector, triangles, KEPT)
+    length = min(1.0, longest)
+    reached, left = evaluate(length)
+    if length == 1 and step.farthest <= tolerance:
+        return length, left
+    for _ in range(HALVINGS):
+        if reached <= height * (1 + ROUNDING) + SUFFICIENT * length * step.slope:
+            break
+        length /= 2
+        reached, left = evaluate(length)
+    else:
+        return None
+    while length >= 1 and 2 * length <= longest:
+        farther, more = evaluate(2 * length)
+        if farther >= reached - 0.1 * (height - reached):
+            break
+        length, reached, left = 2 * length, farther, more
+    return length, left
 
 
 def _farthest(step: np.ndarray) -> float:

@@ -71,6 +71,19 @@ class ContourLaplacian(PaperTerm):
         sine = sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] for a, b in zip(rest, arms, strict=True))
         return cosine, sine
 
+    def _turn_gradient(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Derivatives of the logarithm of that length, and of the angle, by each vertex's six coordinates."""
+        rest, _ = self._rest
+        cosine, sine = self._turn(vertices)
+        square = np.maximum(cosine**2 + sine**2, np.finfo(float).tiny)[:, None]
+        cosine, sine = cosine[:, None] / square, sine[:, None] / square
+        # by an edge (x, z) whose rest is (a, b), the cosine changes by (a, b) and the sine by (-b, a)
+        arms = [(arm, arm[:, ::-1] * [-1, 1]) for arm in rest]
+        lengths = [cosine * along + sine * across for along, across in arms]
+        angles = [cosine * across - sine * along for along, across in arms]
+        first, second = (np.hstack([-by[0], by[0] - by[1], by[1]]) for by in (lengths, angles))
+        return first, second
+
     def target(self, vertices: np.ndarray) -> np.ndarray:
         _, bend = self._rest
         cosine, sine = self._turn(vertices)
@@ -82,17 +95,26 @@ class ContourLaplacian(PaperTerm):
         return (self.rows @ vertices - self.target(vertices)).ravel()
 
     def jacobian(self, vertices: np.ndarray) -> csr_array:
-        rest, _ = self._rest
-        cosine, sine = self._turn(vertices)
-        # the angle's derivative by an edge (x, z) whose rest is (a, b) is (cosine (-b, a) - sine (a, b)) / length^2
-        by_arm = [cosine[:, None] * arm[:, ::-1] * [-1, 1] - sine[:, None] * arm for arm in rest]
-        by_arm = [arm / np.maximum(cosine**2 + sine**2, np.finfo(float).tiny)[:, None] for arm in by_arm]
+        _, angle = self._turn_gradient(vertices)
         by_angle = self.target(vertices)[:, ::-1] * [-1, 1]
-        angle = np.concatenate([-by_arm[0], by_arm[0] - by_arm[1], by_arm[1]], axis=1)
         linear = self.weight * np.kron([-0.5, 1.0, -0.5], np.eye(2))
         data = linear[None] - by_angle[:, :, None] * angle[:, None, :]
         columns = np.repeat(coordinates(self.mesh.contour), 2, axis=0)
         return sparse_rows(columns, data.reshape(-1, 6), vertices.size)
+
+    def curvature(self, vertices: np.ndarray) -> Sequence[Layer]:
+        """Second derivatives, as in `Term`; the two rows of a vertex share theirs.
+
+        The angle is the imaginary part of the logarithm of a linear complex function, so the gradients a of the real
+        part and b of the angle make its Hessian, -(a b' + b a').
+        """
+        log_length, angle = self._turn_gradient(vertices)
+        target, residual = self.target(vertices), self.residual(vertices).reshape(-1, 2)
+        outward = np.sum(residual * target, axis=1)
+        aside = np.sum(residual * target[:, ::-1] * [-1, 1], axis=1)
+        crossed = np.stack([log_length + angle, log_length - angle], axis=1)
+        both = np.repeat(angle, 2, axis=0)
+        return [(crossed.ravel(), np.outer(aside / 2, [1, -1]).ravel()), (both.ravel(), np.repeat(outward / 2, 2))]
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,7 +213,8 @@ class Level(PaperTerm):
 class AreaBarrier(Term):
     """Term that keeps triangles from turning over; zero while they keep more than a share ``onset`` of their area.
 
-    The residual is 1/s - 1/onset, times the root of the area at rest, where s is the area now over the area at rest.
+    The residual is (1 - s/onset)^2 / s, times the root of the area at rest, where s is the area now over the area at
+    rest. Its square has three continuous derivatives at the onset, so Newton's method does not stumble there.
     """
 
     mesh: Mesh
@@ -207,27 +230,27 @@ class AreaBarrier(Term):
 
     def residual(self, vertices: np.ndarray) -> np.ndarray:
         _, areas, share = self._pressed(vertices)
-        return np.sqrt(areas) * (1 / share - 1 / self.onset)
+        return np.sqrt(areas) * (1 - share / self.onset) ** 2 / share
 
     def jacobian(self, vertices: np.ndarray) -> csr_array:
         triangles, areas, share = self._pressed(vertices)
         corners = vertices[triangles]
         opposite = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]
         by_corner = 0.5 * opposite[..., ::-1] * [-1, 1]
-        data = -(areas**-0.5 / share**2)[:, None] * by_corner.reshape(-1, 6)
-        return sparse_rows(coordinates(triangles), data, vertices.size)
+        slope = (self.onset**-2 - share**-2) / np.sqrt(areas)
+        return sparse_rows(coordinates(triangles), slope[:, None] * by_corner.reshape(-1, 6), vertices.size)
 
     def curvature(self, vertices: np.ndarray) -> Sequence[Layer]:
         """Second derivatives, as in `Term`.
 
-        The residual bends as 1/s does, and the area s is a quadratic form of the corners, the same for all triangles;
-        it is split into its four principal directions.
+        The area is a quadratic form of the corners, the same for all triangles, and split into its four principal
+        directions.
         """
         _, areas, share = self._pressed(vertices)
-        residual = self.residual(vertices)
-        bend = -residual / (np.sqrt(areas) * share**2)
+        residual, slope = self.residual(vertices), self.onset**-2 - share**-2
+        bend = residual * slope / np.sqrt(areas)
         rows = [(np.tile(direction, len(areas)), size * bend) for size, direction in zip(*AREA_MODES, strict=True)]
-        return [(self.jacobian(vertices).data, 2 * residual * share / np.sqrt(areas)), *rows]
+        return [(self.jacobian(vertices).data, 2 * residual / (np.sqrt(areas) * share**3 * slope**2)), *rows]
 
 
 def _area_modes() -> tuple[np.ndarray, np.ndarray]:

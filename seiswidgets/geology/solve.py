@@ -19,7 +19,8 @@ from seiswidgets.signatures import check_keywords
 GAUSS_NEWTON, FIXED_POINT = "gauss-newton", "fixed-point"
 NORMS, ROWS = "norms", "rows"
 WEIGHTINGS = {GAUSS_NEWTON: ROWS, FIXED_POINT: NORMS}
-TOLERANCE = 1e-6  # of the mesh spacing
+SETTLED = 0.01  # of the slack: a thousandth of a sample
+TOLERANCE = 1e-6  # of the mesh spacing, for the fixed point, whose steps are short far from its end
 INWARDS = 1e-3, 0.1, 0.5  # shares of the distance to a triangle's centre
 SetupT = TypeVar("SetupT", bound=MeshSetup)
 MOST_ITERATIONS = {GAUSS_NEWTON: 200, FIXED_POINT: 1000}
@@ -137,10 +138,11 @@ def minimise(
     FlippedError
         If triangles are turned over at the end; it says how many and where the first is.
     """
-    settings = (TOLERANCE * domain.spacing, options.iteration_limit, options.progress)
+    limits = options.iteration_limit, options.progress
     if options.solver == GAUSS_NEWTON:
-        return gauss_newton(terms, mesh.triangles, start, _anchor(mesh) if adrift else free, *settings)
-    solution = fixed_point(terms, start, free, *settings)
+        free = _anchor(mesh) if adrift else free
+        return gauss_newton(terms, mesh.triangles, start, free, SETTLED * domain.slack, *limits)
+    solution = fixed_point(terms, start, free, TOLERANCE * domain.spacing, *limits)
     flipped = np.flatnonzero(triangle_areas(solution.vertices, mesh.triangles) <= 0)
     if len(flipped):
         centre = mesh.vertices[mesh.triangles[flipped[0]]].mean(axis=0)

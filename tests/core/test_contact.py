@@ -126,14 +126,30 @@ def test_both_sides_see_each_other():
         np.testing.assert_array_equal(term.segments, other)
 
 
-@pytest.mark.parametrize(("way", "partner"), [(0.9, 0), (1.05, 0), (1.09, 0), (1.11, 1), (1.5, 1)])
-def test_a_partner_is_kept_a_little_beyond_its_end(way, partner):
+@pytest.mark.parametrize("bend", [-30.0, 30.0])
+def test_the_distance_is_continuous_where_the_partner_changes(bend):
+    """At a corner both segments are equally far on the bisector, inside the bend and outside."""
+    line = shapely.LineString([(0, 0), (100, 0), (200, bend)])
+    rest, (term, _) = two_sided(line)
+    distances, partners = [], []
+    for way in np.linspace(80, 120, 401):
+        vertices = rest.copy()
+        vertices[term.points[0]] = (way, 20.0)
+        term = term.with_contacts(vertices)
+        distances.append(term.distances(vertices)[0])
+        partners.append(term.partner[0])
+    assert set(partners) == {0, 1}
+    assert np.abs(np.diff(distances)).max() < 0.1
+
+
+@pytest.mark.parametrize(("way", "partner"), [(0.95, 0), (1.05, 0), (1.09, 0), (1.11, 1)])
+def test_a_partner_that_was_returned_to_is_kept_a_little_beyond_its_end(way, partner):
     line = shapely.LineString([(0, 0), (100, 0), (200, 0)])
     rest, (term, _) = two_sided(line)
-    held = term.with_contacts(moved(rest, lambda points: np.add(points, (50, 0))))
-    assert held.partner[0] == 0  # the first vertex is over the first segment
-    later = held.with_contacts(moved(rest, lambda points: np.add(points, (100 * way, 0))))
-    assert later.partner[0] == partner
+    for x in (90, 110, 90):
+        term = term.with_contacts(moved(rest, lambda points, x=x: np.add(points, (x, 0))))
+        assert term.partner[0] == (x > 100)
+    assert term.with_contacts(moved(rest, lambda points: np.add(points, (100 * way, 0)))).partner[0] == partner
 
 
 def test_without_a_partner_the_nearest_is_taken():

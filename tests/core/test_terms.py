@@ -81,10 +81,21 @@ def test_jacobian_of_the_barrier_is_the_derivative_when_squeezed(squeeze):
     check_jacobian(barrier, vertices, np.random.default_rng(9), step=1e-6)
 
 
-@pytest.mark.parametrize(("name", "squeeze"), [("edge length", 0.9), ("area barrier", 0.35), ("area barrier", 0.1)])
-def test_curvature_is_what_the_jacobian_leaves_of_the_second_derivative(name, squeeze):
-    term, rest = case("planar", name)
-    check_curvature(term, perturbed(rest * [squeeze, 1], np.random.default_rng(4), 0.5), np.random.default_rng(10))
+CURVED = [
+    ("edge length", 0.9),
+    ("contour", 0.9),
+    ("contact, right", 0.9),
+    ("area barrier", 0.35),
+    ("area barrier", 0.1),
+]
+
+
+@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize(("name", "squeeze"), CURVED)
+def test_curvature_is_what_the_jacobian_leaves_of_the_second_derivative(line, name, squeeze):
+    term, rest = case(line, name)
+    vertices = perturbed(rest * [squeeze, 1], np.random.default_rng(4), 0.5)
+    check_curvature(update_contacts([term], vertices)[0], vertices, np.random.default_rng(10))
 
 
 @SHAPE_TERMS
