@@ -21,9 +21,10 @@ from seiswidgets.geology.weights import Weights
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.binding import bind
-from seiswidgets.widgets.closing import WithParts
+from seiswidgets.widgets.closing import WithParts, close_with_parts
 from seiswidgets.widgets.files.file_panel import FilePanel
 from seiswidgets.widgets.files.session_bar import SessionBar
+from seiswidgets.widgets.files.start_page import StartPage
 from seiswidgets.widgets.histogram import DeformationHistogram
 from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.key_guard import KeyGuard
@@ -52,7 +53,8 @@ class RestorationApp(WithParts, VBox):
 
     Parameters
     ----------
-    section : Section
+    section : Section, optional
+        If left out, the app opens on a start page: open or drop a file, continue a session, or take a built-in section.
     interpretation : Interpretation, optional
         Picks to start with.
     fixed : (x, z), optional
@@ -78,6 +80,8 @@ class RestorationApp(WithParts, VBox):
         Whether the section is restored after each change; if not, press Restore.
     restoration : Restoration
         The newest restoration on the full mesh. All attributes may be set, and observed.
+    start_page : StartPage or None
+        None once a section is open.
     panes, picker, histogram, sliders, timeline : LinkedPanes, Picker, DeformationHistogram, WeightSliders, Timeline
         Parts of the app.
 
@@ -100,7 +104,7 @@ class RestorationApp(WithParts, VBox):
 
     def __init__(
         self,
-        section: Section,
+        section: Section | None = None,
         interpretation: Interpretation | None = None,
         *,
         fixed: tuple[float, float] | None = None,
@@ -114,9 +118,11 @@ class RestorationApp(WithParts, VBox):
             validation.checked_kind(source, SectionSource, "source")
         plan = Plan(fixed=fixed, **{name: settings.pop(name) for name in ("steps", "weights") if name in settings})
         drawing = Drawing().with_interpretation(interpretation or Interpretation())
-        self.workspace = Workspace(section, drawing, plan, source)
+        self.workspace = Workspace(section or Section(np.zeros((2, 2)), 1.0, 1.0, name="none"), drawing, plan, source)
         self._make_parts(height)
-        super().__init__(self._arrange())
+        self.start_page = None if section else StartPage(self.workspace, self.session_bar.keep_newest)
+        start = [self.start_page, self.session_bar, Names(), KeyGuard()] if self.start_page else None
+        super().__init__(start or self._arrange())
         self.add_class("seiswidgets-app")
         keep_order(self)
         self._bind()
@@ -213,9 +219,10 @@ class RestorationApp(WithParts, VBox):
         finally:
             super().close()
 
-    def _opened_files(self) -> list[FilePanel]:
-        """Page of the tab File, if it has been opened."""
-        return [self.files] if "files" in vars(self) else []
+    def _opened_files(self) -> list[FilePanel | StartPage]:
+        """The start page, and the page of the tab File, if they have been opened."""
+        opened: list[FilePanel | StartPage] = [self.start_page] if self.start_page else []
+        return [*opened, self.files] if "files" in vars(self) else opened
 
     def _make_parts(self, height: int) -> None:
         workspace = self.workspace
@@ -260,6 +267,7 @@ class RestorationApp(WithParts, VBox):
         for name in ("brush", "span"):
             link((self.histogram, name), (self.panes, name))
         workspace.observe(lambda change: self.reports.show(change.new), "restoration")
+        workspace.observe(self._take_section, "document")
         self.panes.on_reading(self._mark)
         self.picker.on_finding(self._open_finding)
 
@@ -272,6 +280,19 @@ class RestorationApp(WithParts, VBox):
 
     def _change_steps(self, steps: tuple) -> None:
         self.workspace.change_plan("steps", steps=steps)
+
+    def _take_section(self, change: Bunch) -> None:
+        """Bring another section into view, and leave the start page."""
+        if change.old.section is change.new.section:
+            return
+        if self.start_page is not None:
+            self.start_page.end()
+            self.start_page, page = None, self.start_page
+            self.children = self._arrange()
+            close_with_parts(page)
+            self.workspace.history.forget()  # there is nothing before the first section
+            self.picker.refresh()
+        self.panes.original.layer.send({"kind": "show"})
 
     def _open_finding(self, finding: Finding) -> None:
         """Show a finding in the status line, and its pick in the list."""

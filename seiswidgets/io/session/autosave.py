@@ -215,6 +215,19 @@ def next_version(path: Path) -> Path:
     return path.with_name(f"{path.stem}.{max(numbered_files(path), default=0) + 1:06d}{path.suffix}")
 
 
+def find_sessions(folder: Path) -> list[Path]:
+    """Paths of the sessions that were saved automatically in a folder or its subfolders, newest first."""
+    newest: dict[Path, float] = {}
+    for pattern in ("*.json", "*/*.json"):
+        for file in folder.glob(pattern):
+            name = re.fullmatch(r"(.+)\.\d{6,12}\.json", file.name)
+            if name:
+                path = file.with_name(f"{name[1]}.json")
+                with contextlib.suppress(OSError):  # deleted meanwhile
+                    newest[path] = max(newest.get(path, 0.0), file.stat().st_mtime)
+    return sorted(newest, key=lambda path: -newest[path])
+
+
 def numbered_files(path: Path) -> dict[int, Path]:
     """Files of the versions of a path, by number."""
     name = re.compile(re.escape(path.stem) + r"\.(\d{6,12})" + re.escape(path.suffix))

@@ -122,6 +122,12 @@ class SessionBar(VBox):
         else:
             self._begin(path)
 
+    def keep_newest(self, path: Path) -> None:
+        """Continue the newest version under a path, without asking which."""
+        self.keep(path)
+        if OPEN in self.notice.answers:
+            self._open()
+
     def end(self) -> None:
         """Save unsaved edits, and stop saving; a DataError if they cannot be saved."""
         path, autosave = self.path, self._autosave

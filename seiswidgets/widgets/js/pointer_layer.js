@@ -21,7 +21,10 @@ import { keepTraitsLocal } from "./shared/local_traits.js";
  */
 function observe(model, view, throttles) {
   /** @param {{ kind: string, to: keyof typeof throttles, took: number }} message */
-  const receive = ({ kind, to, took }) => kind === "answer" && throttles[to]?.answer(took);
+  const receive = ({ kind, to, took }) => {
+    if (kind === "show") requestAnimationFrame(() => view.el.scrollIntoView({ block: "nearest" }));
+    else if (kind === "answer") throttles[to]?.answer(took);
+  };
   /** @type {[string, (...args: any[]) => void][]} */
   const handlers = [
     ...Object.entries(PARTS_BY_TRAIT).map(

@@ -111,10 +111,26 @@ function render({ model, el }) {
     if (file) uploader.begin(file);
     chooser.value = ""; // so that the same file can be chosen again
   });
+  const controller = new AbortController();
+  const { signal } = controller;
+  const isHere = (/** @type {Event} */ event) =>
+    event.composedPath().includes(el.closest(".seiswidgets-drop") ?? el.parentElement ?? el);
+  const accept = (/** @type {DragEvent} */ event) => isHere(event) && event.preventDefault();
+  for (const type of /** @type {const} */ (["dragenter", "dragover"]))
+    window.addEventListener(type, accept, { capture: true, signal });
+  const drop = (/** @type {DragEvent} */ event) => {
+    const file = event.dataTransfer?.files[0];
+    if (!isHere(event) || !file) return;
+    event.preventDefault(); // or the browser would show the file instead of the notebook
+    event.stopPropagation();
+    uploader.begin(file);
+  };
+  window.addEventListener("drop", drop, { capture: true, signal });
   /** @param {{ id: number, next: number | null }} request */
   const answer = (request) => uploader.sendPiece(request);
   model.on("msg:custom", answer);
   return () => {
+    controller.abort();
     clearTimeout(uploader.timer);
     model.off("msg:custom", answer);
   };

@@ -1626,7 +1626,10 @@ function keepTraitsLocal(model, names) {
 
 // pointer_layer.js
 function observe(model, view, throttles) {
-  const receive = ({ kind, to, took }) => kind === "answer" && throttles[to]?.answer(took);
+  const receive = ({ kind, to, took }) => {
+    if (kind === "show") requestAnimationFrame(() => view.el.scrollIntoView({ block: "nearest" }));
+    else if (kind === "answer") throttles[to]?.answer(took);
+  };
   const handlers = [
     ...Object.entries(PARTS_BY_TRAIT2).map(
       ([trait, parts]) => (

@@ -88,9 +88,28 @@ function render({ model, el }) {
     if (file) uploader.begin(file);
     chooser.value = "";
   });
+  const controller = new AbortController();
+  const { signal } = controller;
+  const isHere = (event) => event.composedPath().includes(el.closest(".seiswidgets-drop") ?? el.parentElement ?? el);
+  const accept = (event) => isHere(event) && event.preventDefault();
+  for (
+    const type of
+    /** @type {const} */
+    ["dragenter", "dragover"]
+  )
+    window.addEventListener(type, accept, { capture: true, signal });
+  const drop = (event) => {
+    const file = event.dataTransfer?.files[0];
+    if (!isHere(event) || !file) return;
+    event.preventDefault();
+    event.stopPropagation();
+    uploader.begin(file);
+  };
+  window.addEventListener("drop", drop, { capture: true, signal });
   const answer = (request) => uploader.sendPiece(request);
   model.on("msg:custom", answer);
   return () => {
+    controller.abort();
     clearTimeout(uploader.timer);
     model.off("msg:custom", answer);
   };
