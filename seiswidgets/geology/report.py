@@ -6,6 +6,7 @@ from html import escape
 
 from seiswidgets.geology.findings import COLOURS, Finding, worst_first
 
+LEAST = 0.001  # metres between cut-offs that are worth a figure
 CONSTRAINTS = {"cut-off", "contact", "datum", "bed length", "overlap"}  # kinds of findings
 
 
@@ -172,9 +173,10 @@ class Report:
         return rows + self._solver_rows()
 
     def _offset(self, cutoff: CutOffReport) -> str:
+        apart = f"{cutoff.misfit:.2g}" if cutoff.misfit >= LEAST else f"less than {LEAST:g}"
         return (
             f"{cutoff.sense}: throw {cutoff.throw:.4g} {self.z_unit}, heave {cutoff.heave:.4g} {self.x_unit}; "
-            f"cut-offs now {cutoff.misfit:.2g} m apart"
+            f"cut-offs now {apart} m apart"
         )
 
     def _bed(self, bed: BedReport) -> str:
@@ -183,7 +185,8 @@ class Report:
 
     def _motion(self, motion: MotionReport) -> str:
         turn = f"{abs(motion.rotation):.1f}° {'clockwise' if motion.rotation >= 0 else 'anticlockwise'}"
-        shift = f"{motion.dx:+.3g} {self.x_unit} in x and {motion.dz:+.3g} {self.z_unit} in z"
+        dx, dz = (0.0 if abs(shift) < LEAST * LEAST else shift for shift in (motion.dx, motion.dz))
+        shift = f"{dx:+.3g} {self.x_unit} in x and {dz:+.3g} {self.z_unit} in z"
         return f"{motion.part}: turned by {turn}, moved by {shift}"
 
     def _solver_rows(self) -> list[tuple[str, str]]:

@@ -189,6 +189,25 @@ def test_rock_on_rock():
     assert holding.sum() >= 2  # the rock from there lies where other rock lies
 
 
+def test_gaps_between_blocks():
+    case = sw.synthetic.blind_fault()
+    picks = case.interpretation
+    (stage,) = sw.Restoration(case.section, 100).unfault(picks.faults, picks.horizons).stages
+    line, rest = stage.faults[0], stage.mesh.vertices
+    centres = rest[stage.mesh.triangles].mean(axis=1)
+    beside = np.array([line.distance(shapely.Point(centre)) for centre in centres]) < 100
+    right = centres[:, 0] > np.interp(centres[:, 1], *np.array(line.coords)[:, ::-1].T)
+    moved = stage.vertices.copy()
+    one_side = np.setdiff1d(stage.mesh.triangles[beside & right], stage.mesh.triangles[~right])
+    moved[one_side[[line.distance(shapely.Point(rest[vertex])) < 1e-6 for vertex in one_side]], 0] += 20
+    report = replace(stage, vertices=moved).report
+    (gap,) = of_kind(report.findings, "gap")
+    assert report.gap == pytest.approx(20 * np.ptp(np.array(line.coords)[:, 1]), rel=0.3)
+    assert gap.severity == "warning"
+    assert "of gaps have opened between the blocks" in gap.text
+    assert line.distance(shapely.Point(gap.where)) < 100
+
+
 def test_a_horizon_off_its_datum():
     case = sw.synthetic.sine_fold(dip=45)
     loose = sw.Weights(flatten=0.1)
