@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from seiswidgets.errors import PickError, SeiswidgetsError
+from seiswidgets.geology.blocks import Blocks, mesh_blocks
 from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.observations import observe_picks
@@ -10,7 +11,7 @@ from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob, Step
 from seiswidgets.geology.restoration import Beds, EndsOfFaults, Lines, Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.unfaulting import Blocks, free_vertices, mesh_blocks
+from seiswidgets.geology.unfaulting import free_vertices
 from seiswidgets.geology.validation import checked_kind
 
 

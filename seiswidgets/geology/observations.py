@@ -18,8 +18,8 @@ from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport
 
 if TYPE_CHECKING:  # both modules import this one
+    from seiswidgets.geology.blocks import Blocks
     from seiswidgets.geology.flattening import Bed
-    from seiswidgets.geology.unfaulting import Blocks
 
 KEPT = 0.005  # of a horizon's length: a larger change is worth a finding
 

@@ -1,11 +1,14 @@
 """Stretches that two faults share: thrusts on one floor, or a fault drawn along the younger one that offset it."""
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 import numpy as np
 import shapely
 from shapely import LineString, Point
 from shapely.ops import substring
+
+from seiswidgets.geology.segments import split_at_faults
 
 TIGHT = 0.01  # share of the reach: lines drawn along each other with snapping are closer than this
 LONG = 12  # times the distance between the lines: two that cross at more than 10 degrees part sooner
@@ -42,6 +45,19 @@ def follow(line: LineString, others: Iterable[LineString], reach: float) -> Line
             after = [point for point, at in zip(line.coords, arc_lengths, strict=True) if at > stop]
             line = LineString([*before, *stretch.coords, *after])
     return line
+
+
+def split_into_stretches(line: LineString, faults: Sequence[LineString], reach: float) -> list[tuple[LineString, bool]]:
+    """Parts of a fault between the faults of a stage, in order, each with True if it lies on one of them."""
+    stretches = sorted(stretch for fault in faults for stretch in shared_stretches(line, fault, reach))
+    stops = np.clip([0, *np.maximum.accumulate(np.array(stretches).ravel()), line.length], 0, line.length)
+    parts: list[tuple[LineString, bool]] = []
+    for index, (start, stop) in enumerate(pairwise(stops)):
+        if stop - start > 1e-9 * line.length:
+            part, shared = substring(line, start, stop), index % 2 == 1
+            pieces = [part] if shared else [segment.line for segment in split_at_faults(part, faults)]
+            parts += [(piece, shared) for piece in pieces]
+    return parts
 
 
 def continue_along(line: LineString, boundaries: Sequence[LineString], others: Sequence[LineString]) -> LineString:

@@ -9,7 +9,6 @@ from typing import Protocol
 import numpy as np
 import shapely
 from shapely import LineString, MultiPolygon, Polygon
-from shapely.ops import substring
 
 from seiswidgets.core import deformation
 from seiswidgets.core.mapping import PiecewiseAffineMap
@@ -23,8 +22,8 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.motion import observe_motion
 from seiswidgets.geology.report import Observations, Report
-from seiswidgets.geology.segments import horizon_segments, join_pieces, split_at_faults
-from seiswidgets.geology.shared_stretches import follow, shared_stretches
+from seiswidgets.geology.segments import horizon_segments, join_pieces
+from seiswidgets.geology.shared_stretches import follow, split_into_stretches
 from seiswidgets.geology.weights import Weights
 
 SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
@@ -280,7 +279,7 @@ class Stage:
         stay together.
         """
         line = follow(line, self.faults, self.domain.sample)
-        parts = _split_at_faults(line, self.faults, self.domain.sample)
+        parts = split_into_stretches(line, self.faults, self.domain.sample)
         own = [part for part, shared in parts if not shared]
         ways = [
             self._carry(lines, side * SIDEWAYS * self.spacing)
@@ -305,19 +304,6 @@ class Stage:
         moved = self.map.forward(points, self.map.source_finder(within))
         moved = moved[np.isfinite(moved).all(axis=1)]
         return LineString(moved) if len(moved) > 1 else None
-
-
-def _split_at_faults(line: LineString, faults: Sequence[LineString], reach: float) -> list[tuple[LineString, bool]]:
-    """Parts of a fault between the faults of a stage, in order, each with True if it lies on one of them."""
-    stretches = sorted(stretch for fault in faults for stretch in shared_stretches(line, fault, reach))
-    stops = np.clip([0, *np.maximum.accumulate(np.array(stretches).ravel()), line.length], 0, line.length)
-    parts: list[tuple[LineString, bool]] = []
-    for index, (start, stop) in enumerate(pairwise(stops)):
-        if stop - start > 1e-9 * line.length:
-            part, shared = substring(line, start, stop), index % 2 == 1
-            pieces = [part] if shared else [segment.line for segment in split_at_faults(part, faults)]
-            parts += [(piece, shared) for piece in pieces]
-    return parts
 
 
 def _gaps(lines: Sequence[LineString]) -> float:

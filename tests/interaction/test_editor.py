@@ -741,6 +741,15 @@ def test_loading_is_an_edit_and_keeps_looks(drawn):
 # Cut-offs
 
 
+def test_a_fold_that_a_fault_cuts_twice_has_two_numbers_there():
+    fault, at = sw.Fault([(300, 0), (600, 600)], "F1"), lambda z: (300 + z / 2, z)
+    hanging_wall = [at(160.0), (600, 260), at(440.0)]
+    fold = sw.Horizon([(0, 100), at(100.0)], hanging_wall, [(0, 380), at(380.0)], name="H1")
+    found = editor_of(VIEW, sw.Interpretation([fault], [fold])).cutoffs()
+    depths = {number: sorted(mark.point[1] for mark in found if mark.number == number) for number in (1, 2)}
+    assert depths == {1: pytest.approx([100, 160]), 2: pytest.approx([380, 440])}
+
+
 def test_cutoffs_are_numbered_by_fault_and_horizon(drawn):
     marks = drawn.cutoffs()
     assert [(mark.number, mark.fault, mark.horizon) for mark in marks] == [

@@ -1,0 +1,212 @@
+"""Meshing of a section that is cut into blocks: faults, horizons, and the vertices at which they meet."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from shapely import LineString
+
+from seiswidgets.core.curves import move_onto
+from seiswidgets.core.junctions import Continuation, continuations
+from seiswidgets.core.mesh import Cut, Mesh, edge_keys
+from seiswidgets.core.triangulation import edges_along
+from seiswidgets.errors import Keyword, PickError
+from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_curves import meshed_parts
+from seiswidgets.geology.fault_lines import NO_ENDS, fault_lines, settle_tips
+from seiswidgets.geology.picks import FAULT, HORIZON, TIP, Ends
+from seiswidgets.geology.segments import horizon_segments
+from seiswidgets.geology.shared_stretches import continue_along, follow
+from seiswidgets.geology.solve import reusable_setup
+from seiswidgets.geology.stage import Stage
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """A section cut into blocks, and the picks in its mesh.
+
+    Attributes
+    ----------
+    cut : Cut
+    lines : dict of str to LineString
+        The lines along which it is cut: the faults, drawn on along boundaries that they share.
+    sides : dict of str to array, shape (2, s, 2)
+        Both copies of each fault's edges.
+    beyond : list of (Continuation, Continuation)
+        For each fault, the sides of others that continue its own.
+    network : PickNetwork
+    cutoffs : list of CutOffPair
+    stitches : array, shape (c, 2)
+        The vertices of each pair of cut-offs, in the hanging wall and in the footwall.
+    beds : dict of str to list of array, shape (k, 2)
+        The edges of each segment of each horizon.
+    boundaries : tuple of LineString
+        Faults that stay as they are.
+    fingerprint : tuple
+        Everything that shaped the mesh.
+    ends : dict of str to pair of str
+        See `Fault.ends`.
+    """
+
+    cut: Cut
+    lines: dict[str, LineString]
+    sides: dict[str, np.ndarray]
+    beyond: list[tuple[Continuation, Continuation]]
+    network: PickNetwork
+    cutoffs: list[CutOffPair]
+    stitches: np.ndarray
+    beds: dict[str, list[np.ndarray]]
+    boundaries: tuple[LineString, ...]
+    fingerprint: tuple
+    ends: Mapping[str, Ends]
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh, cut."""
+        return self.cut.mesh
+
+    @property
+    def reach(self) -> float:
+        """Factor of the weight of a stitch: the root of the average number of edges along a fault.
+
+        A stitch is one vertex, but has to move the whole side of a fault. With this factor it counts for as many as
+        the contact has there, and cut-offs meet as well on a fine mesh as on a coarse one.
+        """
+        return float(np.sqrt(np.mean([sides.shape[1] for sides in self.sides.values()])))
+
+    def slips(self) -> dict[str, np.ndarray]:
+        """For each fault the points between its pairs of cut-offs, and the distance of each pair, in metres."""
+        ends = self.mesh.vertices[self.stitches]
+        rows = np.column_stack([ends.mean(axis=1), np.hypot(*(ends[:, 0] - ends[:, 1]).T)])
+        return {name: rows[[pair.fault == name for pair in self.cutoffs]] for name in self.network.faults}
+
+
+def mesh_blocks(
+    domain: RestorationDomain,
+    faults: Mapping[str, np.ndarray],
+    horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Mapping[str, np.ndarray],
+    ends: Mapping[str, Ends] = NO_ENDS,
+    start: Stage | None = None,
+) -> Blocks:
+    """Match faults and horizons, and mesh them; an earlier stage's set-up is reused if it is identical.
+
+    Raises
+    ------
+    PickError
+        If a pick cannot be used as it was drawn.
+    """
+    others = [LineString(points) for points in boundaries.values()]
+    drawn = {name: [LineString(points)] for name, points in faults.items()}
+    fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends
+    earlier = reusable_setup(start, Blocks, fingerprint)
+    return earlier or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends)
+
+
+def _mesh_blocks(
+    domain: RestorationDomain,
+    faults: Mapping[str, np.ndarray],
+    horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Sequence[LineString],
+    fingerprint: tuple,
+    ends: Mapping[str, Ends],
+) -> Blocks:
+    curves = fault_lines(faults, domain, ends, boundaries)
+    boundaries = [follow(line, curves.values(), domain.sample) for line in boundaries]
+    laid = {name: [domain.on_border(piece) for piece in pieces] for name, pieces in horizons.items()}
+    network = _network(curves, laid, boundaries, domain)
+    cutoffs = network.cutoffs()
+    cuts = {name: _drawn_on(name, network.faults, boundaries, ends) for name in network.faults}
+    lines = {name: meshed_parts(name, cuts, network.ends_at(name), domain) for name in cuts}
+    bed_lines = {
+        name: [domain.simplify(segment.line) for segment in segments] for name, segments in network.horizons.items()
+    }
+    meshed = {(FAULT, name): parts for name, parts in lines.items()}
+    whole = domain.mesh(meshed | {(HORIZON, name): bed for name, bed in bed_lines.items()})
+    edges = {name: _inner_edges(whole, parts, name, domain) for name, parts in lines.items()}
+    for name, along in edges.items():
+        whole = move_onto(whole, along, cuts[name])
+    cut_edges = np.concatenate(list(edges.values()))
+    cut = whole.cut(cut_edges)
+    beds = {
+        name: [cut.along(edges_along(whole, line, domain.spacing, without=cut_edges)) for line in bed]
+        for name, bed in bed_lines.items()
+    }
+    sides = {name: cut.sides(along) for name, along in edges.items()}
+    _check_meshed(cutoffs, beds, network)
+    beyond = continuations(whole.vertices, list(edges.values()), list(sides.values()))
+    return Blocks(
+        cut, cuts, sides, beyond, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint, ends
+    )
+
+
+def _network(
+    curves: dict[str, LineString],
+    horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Sequence[LineString],
+    domain: RestorationDomain,
+) -> PickNetwork:
+    """Match faults and horizons, and the ends of faults that nearly coincide with them."""
+    network = _match(curves, horizons, boundaries, domain)
+    beds = [piece for pieces in horizons.values() for piece in pieces]
+    settled = settle_tips(curves, beds, {name: network.ends_at(name) for name in curves}, domain)
+    return network if settled == curves else _match(settled, horizons, boundaries, domain)
+
+
+def _match(
+    curves: dict[str, LineString],
+    horizons: Mapping[str, Sequence[LineString]],
+    boundaries: Sequence[LineString],
+    domain: RestorationDomain,
+) -> PickNetwork:
+    walls = [*curves.values(), *boundaries]
+    segments = {name: horizon_segments(pieces, walls, domain.cell) for name, pieces in horizons.items()}
+    return PickNetwork(curves, segments, domain.where, domain.position, domain.length)
+
+
+def _inner_edges(mesh: Mesh, parts: Sequence[LineString], name: str, domain: RestorationDomain) -> np.ndarray:
+    along = np.concatenate([edges_along(mesh, part, domain.spacing) for part in parts])
+    inner = ~np.isin(edge_keys(along), edge_keys(mesh.boundary))
+    if not inner.any():
+        point = parts[0].coords[0]
+        raise PickError(
+            f"fault {name!r} runs along the border of the section near {domain.where(point)}, where there is nothing "
+            "to slide; draw it inside",
+            pick=name,
+            where=domain.position(point),
+        )
+    return along[inner]
+
+
+def _drawn_on(
+    name: str, faults: Mapping[str, LineString], boundaries: Sequence[LineString], ends: Mapping[str, Ends]
+) -> LineString:
+    """A fault with the boundaries that it continues along, unless its ends are tips."""
+    if TIP in ends.get(name, ()):
+        return faults[name]
+    return continue_along(faults[name], boundaries, [line for other, line in faults.items() if other != name])
+
+
+def _check_meshed(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]], network: PickNetwork) -> None:
+    for pair in cutoffs:
+        for index, which in (pair.hanging_wall, pair.footwall):
+            segment = network.horizons[pair.horizon][index]
+            if not len(beds[pair.horizon][index]):
+                point = segment.end_point(which)
+                raise PickError(
+                    f"piece {segment.piece} of horizon {pair.horizon!r} is only {segment.line.length:.2g} m long at "
+                    f"fault {pair.fault!r}, near {network.where(point)}; draw more of it, or reduce ",
+                    Keyword("spacing"),
+                    pick=pair.horizon,
+                    where=network.position(point),
+                )
+
+
+def _stitches(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]]) -> np.ndarray:
+    """The vertices of each pair of cut-offs, hanging wall first; shape (c, 2)."""
+    ends = [
+        [beds[pair.horizon][index][which, which] for index, which in (pair.hanging_wall, pair.footwall)]
+        for pair in cutoffs
+    ]
+    return np.array(ends, dtype=int)
