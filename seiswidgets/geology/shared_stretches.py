@@ -20,7 +20,9 @@ Stretch = tuple[float, float]  # arc lengths of its ends along a line
 
 def shared_stretches(line: LineString, other: LineString, reach: float) -> list[Stretch]:
     """The stretches of a line that lie on top of another line, in order; ``reach`` is the largest distance."""
-    stretches = []
+    stretches: list[Stretch] = []
+    if not shapely.dwithin(line, other, reach):
+        return stretches
     for part in _parts_within(line, other, reach):
         tight = _parts_within(part, other, TIGHT * reach)
         ends = [line.project(Point(piece.coords[which])) for piece in tight or [part] for which in (0, -1)]
