@@ -108,7 +108,20 @@ def test_the_byte_order_of_samples_may_be_given(save):
     samples = content[3600:].reshape(COUNT, -1)[:, 240:]
     samples[:] = samples.reshape(COUNT, -1, 2)[:, :, ::-1].reshape(COUNT, -1)
     path.write_bytes(content.tobytes())
+    with pytest.raises(sw.DataError, match=r"in the other byte order.* give sample_format='<i2'"):
+        opened(path)
     np.testing.assert_array_equal(opened(path, sample_format="<i2").amplitude.T, traces)
+
+
+@pytest.mark.parametrize("label", [b"   1SY1.0RECORD  8192", b"SY2.0"])
+def test_a_tape_label_is_passed_over(tmp_path, label):
+    content = segy_bytes(waves("band", 1), straight(COUNT), binary={3203: 7})
+    for name in ("line.sgy", "line"):
+        (tmp_path / name).write_bytes(label.ljust(128) + content)
+        np.testing.assert_allclose(opened(tmp_path / name).amplitude.T, waves("band", 1), rtol=1e-6)
+    assert sw.preview(tmp_path / "line").header.startswith("C01 A LINE")
+    sw.save_section(opened(tmp_path / "line"), tmp_path / "out.sgy", like=tmp_path / "line")
+    assert (tmp_path / "out.sgy").read_bytes()[3202:3204] == b"\0\7"
 
 
 @pytest.mark.parametrize("order", ["big", "little"])

@@ -276,6 +276,7 @@ def test_records_longer_than_any_are_refused(save):
     [
         (32_767, 0, 0, "start at 32767 ms"),
         (-20_000, 0, 0, "start at -20000 ms"),
+        (-5536, 0, 0, r"start at -5536 ms.* would end far above 0"),
         (3000, 10, 0x100, "start at 30000 ms"),
         (1000, -10, 0, "start at 1000 ms.* or at 100 if bytes 215-216 hold a scalar, -10, which revision 0"),
         (1000, 8224, 0x100, "8224 as the scalar of its delays"),

@@ -49,18 +49,18 @@ def format_doubt(headers: TraceHeaders, traces: np.ndarray) -> FormatDoubt | Non
     chosen = traces[np.unique(np.linspace(0, len(traces) - 1, TRACES).astype(int))].tolist()
     part = slice(start, min(start + SAMPLES, layout.samples))
 
-    def read(name: str) -> np.ndarray:
-        return np.array([headers.samples(trace, part, layout.sample_order, name) for trace in chosen])
+    def read(name: str, order: str = layout.sample_order) -> np.ndarray:
+        return np.array([headers.samples(trace, part, order, name) for trace in chosen])
 
     bits = read(f"u{stated.size}")
     if len(np.unique(bits)) < ENOUGH:
         return None
     values = {name: _live(read(name), bits) for name in (stated.name, *ALTERNATIVES[stated.name])}
+    if stated.size > 1:
+        other_order = "<" if layout.sample_order == ">" else ">"
+        values[other_order + stated.name] = _live(read(stated.name, other_order), bits)
     likely = _likely_format(stated.name, bits, values)
-    if likely is None:
-        return None
-    by_name = {each.name: each for each in FORMATS.values()}
-    return FormatDoubt(stated.name, likely, _doubt_text(headers, stated, by_name[likely], values))
+    return None if likely is None else FormatDoubt(stated.name, likely, _doubt_text(headers, stated, likely, values))
 
 
 def _live(values: np.ndarray, bits: np.ndarray) -> np.ndarray:
@@ -130,16 +130,16 @@ def _counts(bits: np.ndarray) -> np.ndarray:
     return np.bincount(sizes[sizes > 0] >> 20, minlength=2048).reshape(128, 16)
 
 
-def _doubt_text(
-    headers: TraceHeaders, stated: SampleFormat, likely: SampleFormat, values: dict[str, np.ndarray]
-) -> Text:
+def _doubt_text(headers: TraceHeaders, stated: SampleFormat, likely: str, values: dict[str, np.ndarray]) -> Text:
+    words = next((each.words for each in FORMATS.values() if each.name == likely), "numbers in the other byte order")
+
     def reach(name: str) -> str:
         return f"{np.nanmin(values[name]):.3g} to {np.nanmax(values[name]):.3g}"
 
     return Text(
         f"{headers.layout.path} has samples of the format {stated.words} (bytes 3225-3226), but they look like "
-        f"{likely.words}: read so they run from {reach(likely.name)}, otherwise from {reach(stated.name)}; give ",
-        Keyword("sample_format", likely.name),
+        f"{words}: read so they run from {reach(likely)}, otherwise from {reach(stated.name)}; give ",
+        Keyword("sample_format", likely),
         ", or, if the header is right, ",
         Keyword("sample_format", stated.name),
     )

@@ -10,7 +10,7 @@ from typing import BinaryIO
 import numpy as np
 
 from seiswidgets.errors import DataError, Keyword
-from seiswidgets.io.segy.formats import FORMATS, HEADERS, TEXT, TRACE_HEADER, revision
+from seiswidgets.io.segy.formats import FORMATS, HEADERS, LABEL, TEXT, TRACE_HEADER, label_size, revision
 
 CHECKED = 64  # trace headers whose number of samples is checked
 MOST_PADDING = 2**20  # bytes after the last trace
@@ -65,10 +65,11 @@ class Arrangement:
 def arrangements(path: Path, head: bytes, order: str, itemsize: int) -> list[Arrangement]:
     """Possible arrangements for a size of the samples."""
     with path.open("rb") as file:
+        label = label_size(file.read(LABEL))
         return [
-            _arrangement(file, first, samples, itemsize, order)
-            for first in _starts(path, head, order)
-            for samples in _sample_counts(file, head, order, first)
+            _arrangement(file, first + label, samples, itemsize, order)
+            for first in _starts(head, order)
+            for samples in _sample_counts(file, head, order, first + label)
         ]
 
 
@@ -103,7 +104,7 @@ def _other_size(path: Path, code: int, size: int) -> tuple[str | Keyword, ...]:
     )
 
 
-def _starts(path: Path, head: bytes, order: str) -> list[int]:
+def _starts(head: bytes, order: str) -> list[int]:
     """Possible first bytes of the first trace, the likeliest first."""
     (texts,) = struct.unpack_from(f"{order}h", head, 3504)
     if not revision(head):  # where these bytes are unassigned: the file's size must confirm them

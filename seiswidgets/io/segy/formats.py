@@ -1,10 +1,11 @@
 """Formats of SEG-Y's samples, and the sizes of its headers."""
 
+import re
 from typing import Any, NamedTuple
 
 from seiswidgets.errors import Keyword, SettingError
 
-TEXT, HEADERS, TRACE_HEADER = 3200, 3600, 240  # bytes
+TEXT, HEADERS, TRACE_HEADER, LABEL = 3200, 3600, 240, 128  # bytes
 ORDERS = {"big": ">", "little": "<"}
 
 
@@ -40,6 +41,11 @@ def checked_choice(keyword: str, value: Any, known: tuple) -> Any:
     if isinstance(value, bool) or value not in known:
         raise SettingError(Keyword(keyword), f" must be one of {', '.join(map(repr, known))}, but is {value!r}")
     return value
+
+
+def label_size(beginning: bytes) -> int:
+    """Bytes of the tape label before the textual header, which some files have; 0 without one."""
+    return LABEL if re.search(rb"SY[12]\.\d", beginning[:LABEL]) else 0
 
 
 def revision(head: bytes) -> int:

@@ -8,7 +8,18 @@ from seiswidgets.errors import DataError, Keyword
 from seiswidgets.geology.findings import Finding
 from seiswidgets.io.options import OpenOptions, check_shape
 from seiswidgets.io.segy.arrangement import arrangements, differences, find_arrangement
-from seiswidgets.io.segy.formats import CODES, FORMATS, HEADERS, ORDERS, TEXT, TRACE_HEADER, checked_choice, revision
+from seiswidgets.io.segy.formats import (
+    CODES,
+    FORMATS,
+    HEADERS,
+    LABEL,
+    ORDERS,
+    TEXT,
+    TRACE_HEADER,
+    checked_choice,
+    label_size,
+    revision,
+)
 
 FINE = 1e9  # microseconds or millimetres: no sample interval is that long
 
@@ -29,8 +40,8 @@ class Layout:
         Whether the user gave the sample format, so that it is not doubted.
     samples, traces : int
         Samples per trace, and traces in the file.
-    first : int
-        Bytes before the first trace.
+    label, first : int
+        Bytes before the textual header, and before the first trace.
     interval : float
         Sample interval, in microseconds or millimetres; 0 if the binary header does not state it.
     x_unit : "m", "ft" or None
@@ -50,6 +61,7 @@ class Layout:
     is_format_given: bool
     samples: int
     traces: int
+    label: int
     first: int
     interval: float
     x_unit: str | None
@@ -80,6 +92,8 @@ def read_layout(path: Path, options: OpenOptions) -> Layout:
     """
     given, (code, sample_order) = options.keywords, _checked_format(options)
     with path.open("rb") as file:
+        label = label_size(file.read(LABEL))
+        file.seek(label)
         head = file.read(HEADERS)
     if len(head) < HEADERS:
         raise DataError(
@@ -101,6 +115,7 @@ def read_layout(path: Path, options: OpenOptions) -> Layout:
         is_format_given="sample_format" in given,
         samples=best.samples,
         traces=best.traces,
+        label=label,
         first=best.first,
         interval=_interval(head, order),
         x_unit={1: "m", 2: "ft"}.get(struct.unpack_from(f"{order}h", head, 3254)[0]),
@@ -128,6 +143,7 @@ def _interval(head: bytes, order: str) -> float:
 
 def begins_like_segy(head: bytes) -> bool:
     """Check whether the first bytes of a file may be SEG-Y's headers."""
+    head = head[label_size(head) :]
     return len(head) >= HEADERS and any(_code(head, order) in FORMATS for order in ORDERS.values())
 
 

@@ -11,6 +11,7 @@ from seiswidgets.io.segy.traces import TraceHeaders
 INTERVALS = (0.01, 32.767)  # ms or m; beyond it the standard's signed number of thousandths is negative
 LONGEST = 200_000  # ms or m: length of a trace
 STARTS = (-10_000, 20_000)  # ms or m
+HIGHEST_END = -1000  # ms or m: a trace that ends above it has a wrong start
 STANDARD_SCALARS = (0, 1, 10, 100, 1000, 10_000)  # or their negatives; 0 counts as 1
 OFF_GRID = 0.02  # of the sample interval
 GIVE_DZ = Text("give the distance between samples, in the unit of z: ", Keyword("dz"))
@@ -101,6 +102,13 @@ def delay(headers: TraceHeaders, traces: np.ndarray) -> float:
         raise DataError(
             f"{path} has traces that start at {delays[0]:g} ms, m or ft (bytes 109-110 of the trace headers, scalar "
             f"215-216), but surveys start between {low} and {high}; ",
+            GIVE_Z0,
+        )
+    finest = finest_interval(headers, traces[:1]) or 0.0
+    if delays[0] + finest * headers.layout.samples < HIGHEST_END:
+        raise DataError(
+            f"{path} has traces that start at {delays[0]:g} ms, m or ft (bytes 109-110 of the trace headers) and would "
+            "end far above 0; ",
             GIVE_Z0,
         )
     return float(delays[0])

@@ -124,6 +124,7 @@ def _own_headers(section: Section, path: Path) -> list[bytearray]:
 def _copied_general(original: TraceHeaders) -> bytearray:
     """The binary header with the original's numbers of the line, big-endian."""
     with original.layout.path.open("rb") as file:
+        file.seek(original.layout.label)
         content: bytes | bytearray = file.read(HEADERS)
     if original.layout.endian == "little":
         content = _swapped(content, dict.fromkeys(GENERAL_LONG, 4) | dict.fromkeys(range(3213, 3261, 2), 2))
