@@ -37,6 +37,8 @@ def test_picks_that_contradict_each_other_are_named():
     rising = sw.Horizon(third.pieces[0], first.pieces[1], name="rising")
     restored = sw.Restoration(case.section, spacing=SPACING).unfault(fault, [falling, rising], fixed=case.fixed)
     assert_no_flips(restored)
-    texts = [finding.text for finding in restored.stages[-1].report.findings]
-    for name in ("falling", "rising"):
-        assert any(text.startswith(f"horizon {name} at fault F1: its cut-offs are still") for text in texts)
+    (contradiction,) = [finding for finding in restored.findings if "contradicts" in finding.text]
+    assert contradiction.pick == "rising"
+    assert "'falling'" in contradiction.text
+    (cutoff,) = restored.stages[-1].report.cutoffs  # the other one is carried along
+    assert cutoff.horizon == "falling"
