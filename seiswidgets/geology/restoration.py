@@ -160,7 +160,9 @@ class Restoration:
             return unfault_stage(self.domain, lines, beds, holds, solver_options, walls, ends=ends)
 
         stage, notes = self.with_usable_picks(slide_blocks, faults, horizons, boundaries)
-        return self._with_stage(replace(stage, weights=solver_options.weights, fixed=fixed), notes)
+        return self._with_stage(
+            replace(stage, weights=solver_options.weights, fixed=fixed, pins=tuple(pins), regional=regional), notes
+        )
 
     def holds(
         self, fixed: tuple[float, float] | None, pins: Sequence[tuple[float, float]], regional: Regional

@@ -101,8 +101,8 @@ class Stage:
     whole : Stage, optional
         The step that this is only a part of.
     weights : Weights, optional
-    fixed : (x, z), optional
-        The point that was held, in the present-day section's units.
+    fixed, pins, regional
+        What was held, in the present-day section's units; see `Restoration.unfault`.
     """
 
     kind: str
@@ -116,6 +116,8 @@ class Stage:
     whole: "Stage | None" = None
     weights: Weights | None = None
     fixed: tuple[float, float] | None = None
+    pins: tuple[tuple[float, float], ...] = ()
+    regional: float | Sequence[tuple[float, float]] | None = None
 
     def __post_init__(self) -> None:
         self.vertices.setflags(write=False)

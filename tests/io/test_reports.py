@@ -62,7 +62,7 @@ def test_a_page_has_the_figure_the_weights_the_hold_the_date_and_the_version(tmp
     image = re.search(r'src="data:image/png;base64,([^"]+)"', text)
     assert Image.open(BytesIO(b64decode(image[1]))).width > 1000
     assert "stitch 33, flatten 10" in text
-    assert "Hold: block at x 450 m, z 500 m held." in text
+    assert "Held: the block at x=450 m, z=500 m." in text
     assert f"seiswidgets {sw.__version__}" in text
     assert f"{datetime.now():%d %B %Y}" in text
     sw.save_report(plan.restore(case.section, case.interpretation), tmp_path / "report.json")

@@ -79,6 +79,8 @@ def report_as_dict(restored: Restoration) -> dict[str, Any]:
             **asdict(stage.report),
             "weights": asdict(stage.weights) if stage.weights else None,
             "fixed": stage.fixed,
+            "pins": stage.pins,
+            "regional": stage.regional,
         }
         for stage in restored.stages
     ]
@@ -127,13 +129,15 @@ def report_as_html(
 
 
 def _choices(stage: Stage, section: Section) -> str:
-    """Weights and held point of a stage, in a sentence each."""
+    """Weights of a stage and what it held, in a sentence each."""
     weights = asdict(stage.weights) if stage.weights else {}
     listed = ", ".join(f"{name.replace('_', ' ')} {value:g}" for name, value in weights.items())
     texts = [f"Weights: {listed}."] if listed else []
     if stage.kind == "unfault":
-        point = stage.fixed and f"block at x {stage.fixed[0]:g} {section.x_unit}, z {stage.fixed[1]:g} {section.z_unit}"
-        texts.append(f"Hold: {point} held." if point else "Hold: no block held.")
+        held = [f"the block at {section.where(stage.fixed)}"] if stage.fixed else []
+        held += [f"a pin at {section.where(pin)}" for pin in stage.pins]
+        held += ["a regional level"] if stage.regional is not None else []
+        texts.append(f"Held: {', '.join(held) or 'nothing'}.")
     return " ".join(texts)
 
 
