@@ -78,17 +78,25 @@ def grid_state(section: Section) -> State:
     }
 
 
-def stage_state(section: Section, stage: Stage) -> State:
-    """The mesh of a stage: vertices before and after in samples of the section, as 32-bit numbers, and triangles."""
+def stage_state(section: Section, stage: Stage, quick: bool = False) -> State:
+    """The mesh of a stage: vertices before and after in samples of the section, and triangles.
+
+    Vertices are 32-bit numbers; of a quick preview, 16-bit integers to be scaled and shifted.
+    """
     first, step = np.array([section.x0, section.z0]), np.array([section.dx, section.dz])
+    shapes = [(section.from_rock(vertices) - first) / step for vertices in (stage.mesh.vertices, stage.vertices)]
+    low = np.min(shapes, axis=(0, 1)) if quick else np.zeros(2)
+    scale = (np.max(shapes, axis=(0, 1)) - low) / 65535 if quick else np.ones(2)
     before, after = (
-        ((section.from_rock(vertices) - first) / step).astype("<f4").tobytes()
-        for vertices in (stage.mesh.vertices, stage.vertices)
+        (np.rint((shape - low) / scale).astype("<u2") if quick else shape.astype("<f4")).tobytes() for shape in shapes
     )
     bits = 16 if len(stage.vertices) <= 1 << 16 else 32
     return {
         "before": before,
         "after": after,
+        "low": low.tolist(),
+        "scale": scale.tolist(),
+        "quick": quick,
         "triangles": stage.mesh.triangles.astype(f"<u{bits // 8}").tobytes(),
         "bits": bits,
     }

@@ -35,6 +35,8 @@ class Stroke:
         Text near the start of the line.
     chosen : int, optional
         Index of a vertex to show larger.
+    joined : bool
+        False to show no line between the vertices.
     """
 
     points: np.ndarray
@@ -44,6 +46,7 @@ class Stroke:
     dash: tuple[float, ...] = ()
     label: str = ""
     chosen: int | None = None
+    joined: bool = True
 
     def state(self) -> State:
         """Convert to what the pointer layer draws: points as 32-bit offsets from the first, NaN where interrupted."""
@@ -59,6 +62,7 @@ class Stroke:
             "dash": list(self.dash),
             "label": self.label,
             "chosen": self.chosen,
+            "joined": self.joined,
         }
 
 

@@ -79,10 +79,8 @@ class _Line:
     def dots(self, points: np.ndarray, pixel: np.ndarray) -> Stroke:
         """Dots at the vertices; where these are dense, at some of them, but always at the chosen one."""
         kept = _thinned(points / pixel, self.chosen)
-        separate = np.repeat(points[kept], 2, axis=0)  # vertices without lines between them
-        separate[1::2] = np.nan
-        chosen = None if self.chosen is None else 2 * kept.index(self.chosen)
-        return Stroke(separate, self.colour, self.width, dots=True, chosen=chosen)
+        chosen = None if self.chosen is None else kept.index(self.chosen)
+        return Stroke(points[kept], self.colour, self.width, dots=True, chosen=chosen, joined=False)
 
 
 def _lines(state: EditorState) -> Iterator[_Line]:

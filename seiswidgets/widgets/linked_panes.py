@@ -192,7 +192,7 @@ class LinkedPanes(WithParts, VBox):
             restoration = snapshot.restoration
             self._show_section(restoration.original)
             self.picture.frame = None
-            self.picture.take_stages(restoration.stages)
+            self.picture.take_stages(restoration.stages, restoration.quick)
             if not snapshot.is_preview:
                 self.restored.section = snapshot.section
                 self._frame(snapshot, follow)

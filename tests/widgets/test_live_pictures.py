@@ -3,6 +3,7 @@
 import json
 import sys
 from base64 import b64encode
+from dataclasses import replace
 from pathlib import Path
 from subprocess import run
 
@@ -45,7 +46,7 @@ def drawn(restoration, window, *, is_restored=True, time=None, colouring=None, s
     colouring = colouring or Colouring("greys", clip_limit(section, 99.0))
     task = {
         "grid": grid_state(section),
-        "stages": [stage_state(section, stage) for stage in restoration.stages],
+        "stages": [stage_state(section, stage, restoration.quick) for stage in restoration.stages],
         "texture": {
             "shape": source.shape,
             "data": b"".join(source.tile(index) for index in range(source.tiles)),
@@ -102,6 +103,12 @@ def test_the_restored_section_is_drawn_as_by_the_kernel(restored, shares):
 def test_so_is_every_moment(restored, time):
     window = window_of(restored.original, WHOLE)
     assert_alike(drawn(restored, window, time=time), expected(restored.at(time), window))
+
+
+def test_a_preview_is_drawn_as_well_though_its_vertices_are_sent_in_half_the_bytes(restored):
+    preview = replace(restored, quick=True)
+    window = window_of(restored.original, WHOLE)
+    assert_alike(drawn(preview, window), expected(preview, window))
 
 
 def test_colours_gain_and_polarity_are_applied_where_it_is_drawn(restored):

@@ -256,7 +256,7 @@ def test_what_the_layer_draws_it_is_told_in_the_units_of_the_section(section):
     np.testing.assert_array_equal(stroke_points(stroke), [[0, 0], [np.nan] * 2, [1e9, 0]])
     assert (stroke["dash"], stroke["label"], stroke["chosen"], stroke["dots"]) == ([3, 2], "<b>", 2, False)
     pane.draw_marks([Mark((1, 2), "cutoff", "7"), Mark((np.nan, 2), "held")])
-    assert pane.layer.marks == [{"x": 1, "z": 2, "kind": "cutoff", "text": "7", "colour": "#212121"}]
+    assert pane.layer.marks == [{"x": 1, "z": 2, "kind": "cutoff", "text": "7", "colour": "#212121", "path": ""}]
     pane.rubber = np.array([[1, 2], [np.nan, 3], [4, 5]])
     assert pane.layer.rubber == [[1, 2], [4, 5]]
     assert pane.rubber == ((1, 2), (4, 5))

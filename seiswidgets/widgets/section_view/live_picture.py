@@ -74,12 +74,12 @@ class LivePicture(anywidget.AnyWidget):
             with self.hold_sync():
                 self.grid, self.texture = grid_state(section), self._texture_state(self.texture["id"] + 1)
 
-    def take_stages(self, stages: Sequence[Stage]) -> None:
-        """Replace the stages of the restoration; those before that are still the same are not encoded again."""
+    def take_stages(self, stages: Sequence[Stage], quick: bool = False) -> None:
+        """Replace the stages of the restoration, or of a quick preview; those that stay are not encoded again."""
         if len(stages) == len(self._shown) and all(map(is_, stages, self._shown)):
             return
         known = {id(stage): state for stage, state in zip(self._shown, self.stages, strict=True)}
-        self.stages = [known.get(id(stage)) or stage_state(self.section, stage) for stage in stages]
+        self.stages = [known.get(id(stage)) or stage_state(self.section, stage, quick) for stage in stages]
         self._shown = tuple(stages)
 
     def colour(self, colouring: Colouring) -> None:

@@ -40,7 +40,7 @@ def _picture(title: str, pane: SectionPane) -> Image.Image:
     draw = ImageDraw.Draw(picture)
     picture.paste(_section(pane, view), (LEFT, TOP))
     for stroke in pane.layer.strokes:
-        for run in _runs(stroke_points(stroke)):
+        for run in _runs(stroke_points(stroke)) if stroke["joined"] else ():
             draw.line((view.to_pixels(run) + (LEFT, TOP)).ravel().tolist(), fill=stroke["colour"], width=2)
     draw.rectangle((LEFT, TOP, LEFT + SIZE[0], TOP + SIZE[1]), outline=INK)
     draw.text((LEFT, 4), title, fill=INK)

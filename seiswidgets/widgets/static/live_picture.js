@@ -431,6 +431,10 @@ function edgesOf(triangles) {
   }
   return Uint32Array.from(edges);
 }
+function unpacked(bytes, { quick, low, scale }) {
+  if (!quick) return toNumbers(bytes, Float32Array);
+  return Float64Array.from(toNumbers(bytes, Uint16Array), (value, i) => low[i % 2] + scale[i % 2] * value);
+}
 var LiveChain = class {
   /**
    * @param {StageState[]} states
@@ -439,9 +443,9 @@ var LiveChain = class {
   constructor(states, grid) {
     this.grid = grid;
     this.stages = states.map(
-      ({ before, after, triangles, bits }) => new Stage(
-        toNumbers(before, Float32Array),
-        toNumbers(after, Float32Array),
+      ({ before, after, triangles, bits, ...packing }) => new Stage(
+        unpacked(before, packing),
+        unpacked(after, packing),
         bits === 16 ? toNumbers(triangles, Uint16Array) : toNumbers(triangles, Uint32Array),
         grid.tolerance
       )

@@ -8,7 +8,17 @@ import { Motion } from "./motion.js";
 /** @typedef {import("../maps/triangle_finder.js").Numbers} Numbers */
 /** @typedef {import("../maps/triangle_finder.js").Indices} Indices */
 /** @typedef {import("../maps/piecewise_affine_map.js").Point} Point */
-/** @typedef {{ before: DataView, after: DataView, triangles: DataView, bits: 16 | 32 }} StageState */
+
+/**
+ * @typedef {object} StageState
+ * @property {DataView} before
+ * @property {DataView} after
+ * @property {boolean} quick true for 16-bit integers, which are to be scaled and shifted
+ * @property {[number, number]} low
+ * @property {[number, number]} scale
+ * @property {DataView} triangles
+ * @property {16 | 32} bits of the triangles
+ */
 
 /** One step of a restoration: a mesh before and after. Everything is computed when first needed. */
 class Stage {
@@ -87,6 +97,15 @@ function edgesOf(triangles) {
   return Uint32Array.from(edges);
 }
 
+/**
+ * @param {DataView} bytes
+ * @param {Pick<StageState, "quick" | "low" | "scale">} packing
+ */
+function unpacked(bytes, { quick, low, scale }) {
+  if (!quick) return toNumbers(bytes, Float32Array);
+  return Float64Array.from(toNumbers(bytes, Uint16Array), (value, i) => low[i % 2] + scale[i % 2] * value);
+}
+
 /** The maps between the present-day section and the restored one, in samples. */
 export class LiveChain {
   /**
@@ -96,10 +115,10 @@ export class LiveChain {
   constructor(states, grid) {
     this.grid = grid;
     this.stages = states.map(
-      ({ before, after, triangles, bits }) =>
+      ({ before, after, triangles, bits, ...packing }) =>
         new Stage(
-          toNumbers(before, Float32Array),
-          toNumbers(after, Float32Array),
+          unpacked(before, packing),
+          unpacked(after, packing),
           bits === 16 ? toNumbers(triangles, Uint16Array) : toNumbers(triangles, Uint32Array),
           grid.tolerance,
         ),

@@ -47,7 +47,7 @@ export function drawStrokes(group, strokes, plotArea) {
  */
 function drawStroke(group, stroke, pixels) {
   const { colour, width } = stroke;
-  const line = { d: pathData(pixels), "stroke-dasharray": stroke.dash.join(" ") };
+  const line = { d: stroke.joined ? pathData(pixels) : "", "stroke-dasharray": stroke.dash.join(" ") };
   const dots = { d: stroke.dots ? dotData(pixels) : "" };
   const radius = width + 1;
   append(group, "path", "halo", { ...line, "stroke-width": width + 2 * HALO });

@@ -22,6 +22,7 @@ export type Stroke = {
   dash: number[];
   label: string;
   chosen: number | null;
+  joined: boolean;
 };
 
 export type Mark = {
