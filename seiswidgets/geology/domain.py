@@ -16,6 +16,7 @@ from seiswidgets.errors import PickError, number_text
 from seiswidgets.geology.section import Section
 
 SLACK = 0.1  # of a sample: the largest misfit that counts as met
+SHORT = 3.0  # traces and samples: too short a line
 ON_BORDER = 0.5  # of a trace and of a sample
 SIMPLIFIED = 0.01  # of the mesh spacing, at most
 VERTICES = 2500  # of a mesh whose spacing is not given
@@ -71,6 +72,10 @@ class RestorationDomain:
     def tolerance(self) -> float:
         """Largest distance of a simplified line from the original, in metres; in previews it may exceed the slack."""
         return SIMPLIFIED * self.spacing if self.quick else min(self.slack, SIMPLIFIED * self.spacing)
+
+    def is_short(self, points: np.ndarray) -> bool:
+        """True for a line that is no longer than three traces and samples; ``points`` has the shape (n, 2)."""
+        return bool(np.hypot(*(np.diff(points, axis=0) / self.cell).T).sum() <= SHORT)
 
     def simplify(self, line: LineString) -> LineString:
         """Remove the points of a line that a mesh does not need; what lies on the border stays there."""

@@ -9,7 +9,7 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import substring
 
 from seiswidgets.core.linework import longest_first
-from seiswidgets.errors import Keyword, PickError
+from seiswidgets.errors import PickError
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.picks import AUTO, EXTEND, TIP, Ends
 from seiswidgets.geology.shared_stretches import follow, shared_stretches
@@ -86,7 +86,7 @@ def fault_lines(
     Raises
     ------
     PickError
-        If a fault is no longer than the spacing or turns back on itself, or lies on top of another one as a whole.
+        If a fault is no longer than three traces and samples, turns back on itself, or lies on top of another one.
     """
     drawn = {name: _line(name, points, domain) for name, points in faults.items()}
     lines = _follow_earlier(drawn, domain)
@@ -98,13 +98,10 @@ def fault_lines(
 
 def _line(name: str, points: np.ndarray, domain: RestorationDomain) -> LineString:
     points = merge_close_points(points, domain.spacing)
-    length = np.hypot(*np.diff(points, axis=0).T).sum() if len(points) > 1 else 0.0
-    if length <= domain.spacing:
+    if domain.is_short(points):
         raise PickError(
-            f"fault {name!r} near {domain.where(points[0])} is {domain.length(length)} long, no longer than the mesh "
-            f"spacing of {domain.spacing:.4g} m; reduce ",
-            Keyword("spacing"),
-            ", or leave the fault out",
+            f"fault {name!r} near {domain.where(points[0])} is no longer than three traces and samples, too short to "
+            "restore; draw more of it, or leave it out",
             pick=name,
             where=domain.position(points[0]),
         )
@@ -131,7 +128,8 @@ def _follow_earlier(drawn: Mapping[str, LineString], domain: RestorationDomain) 
     for name, line in drawn.items():
         for other, earlier in lines.items():
             shared = shared_stretches(line, earlier, domain.sample)
-            if sum(stop - start for start, stop in shared) > line.length - domain.spacing:
+            own = line.length - sum(stop - start for start, stop in shared)
+            if own < min(domain.spacing, line.length / 2):
                 point = line.interpolate(0.5, normalized=True).coords[0]
                 raise PickError(
                     f"faults {other!r} and {name!r} lie on top of each other near {domain.where(point)}, for "

@@ -13,7 +13,7 @@ from seiswidgets.core.mesh import Mesh, edge_keys
 from seiswidgets.core.term import Term
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
-from seiswidgets.errors import Keyword, PickError
+from seiswidgets.errors import PickError
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import merge_close_points
 from seiswidgets.geology.observations import observe_level
@@ -126,11 +126,10 @@ def _tidy(lines: Sequence[LineString], domain: RestorationDomain, name: str) -> 
     """Simplify the lines of a horizon; PickError if too little of it lies inside the rock."""
     pieces = [merge_close_points(shapely.get_coordinates(line), domain.spacing) for line in lines]
     tidied = [domain.simplify(domain.on_border(LineString(points))) for points in pieces if len(points) > 1]
-    if not any(line.intersection(domain.outline).length > domain.spacing for line in tidied):
+    inside = [shapely.get_coordinates(line.intersection(domain.outline)) for line in tidied]
+    if all(len(points) < 2 or domain.is_short(points) for points in inside):
         raise PickError(
-            f"horizon {name!r} is no longer than the mesh spacing of {domain.spacing:.4g} m; draw more of it, or "
-            "reduce ",
-            Keyword("spacing"),
+            f"horizon {name!r} is no longer than three traces and samples, too short to flatten; draw more of it",
             pick=name,
             where=domain.position(pieces[0][0]) if pieces else None,
         )

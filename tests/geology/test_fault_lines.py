@@ -137,16 +137,19 @@ def test_points_farther_apart_stay():
     np.testing.assert_array_equal(merge_close_points(points, SPACING), points)
 
 
-@pytest.mark.parametrize("length", [0.5, 50, 100])
-def test_faults_no_longer_than_the_spacing(length):
-    with pytest.raises(
-        sw.PickError, match=r"fault 'F' near x=800 m, z=300 m .* no longer than the mesh spacing of 100 m"
-    ):
+@pytest.mark.parametrize("length", [0.5, 20, 30])
+def test_faults_that_are_too_short(length):
+    with pytest.raises(sw.PickError, match=r"fault 'F' near x=800 m, z=300 m is no longer than three traces"):
         lines(F=[(800, 300), (800, 300 + length)])
 
 
-def test_faults_a_little_longer_than_the_spacing():
-    assert len(lines(F=[(800, 300), (800, 401)])["F"]) == 2
+@pytest.mark.parametrize("spacing", [20.0, 300.0])
+def test_the_mesh_does_not_decide_whether_a_fault_is_too_short(spacing):
+    domain = replace(GROUND, requested_spacing=spacing)
+    assert len(fault_lines({"F": np.array([(800.0, 300), (800, 331)])}, domain)["F"].coords) == 2
+    bed = sw.Horizon([(0, 310), (800, 310)], [(800, 314), (2000, 314)])
+    stage = sw.Restoration(SECTION, spacing=spacing).unfault(sw.Fault([(800, 290), (800, 340)]), bed).stages[-1]
+    assert stage.report.converged
 
 
 @pytest.mark.parametrize("turned", [1, -1])
