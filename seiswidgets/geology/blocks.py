@@ -195,7 +195,7 @@ def _check_meshed(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndar
             if not len(beds[pair.horizon][index]):
                 point = segment.end_point(which)
                 raise PickError(
-                    f"piece {segment.piece} of horizon {pair.horizon!r} is only {segment.line.length:.2g} m long at "
+                    f"piece {segment.piece} of horizon {pair.horizon!r} is too short to be meshed at "
                     f"fault {pair.fault!r}, near {network.where(point)}; draw more of it, or reduce ",
                     Keyword("spacing"),
                     pick=pair.horizon,
