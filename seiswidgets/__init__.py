@@ -20,6 +20,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "SettingError",
         ],
         "geology": ["synthetic"],
+        "geology.bodies": ["Body"],
         "geology.checking": ["check"],
         "geology.cutoffs": ["CutOff", "cutoffs", "heave", "throw"],
         "geology.findings": ["Finding"],

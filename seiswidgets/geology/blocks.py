@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from shapely import LineString
 
 from seiswidgets.core.curves import move_onto
@@ -16,7 +17,7 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_curves import meshed_parts
 from seiswidgets.geology.fault_lines import NO_ENDS, fault_lines, settle_tips
 from seiswidgets.geology.picks import FAULT, HORIZON, TIP, Ends
-from seiswidgets.geology.segments import horizon_segments
+from seiswidgets.geology.segments import horizon_segments, segments_beside
 from seiswidgets.geology.shared_stretches import continue_along, follow
 from seiswidgets.geology.solve import reusable_setup
 from seiswidgets.geology.stage import Stage
@@ -162,6 +163,9 @@ def _match(
 ) -> PickNetwork:
     walls = [*curves.values(), *boundaries]
     segments = {name: horizon_segments(pieces, walls, domain.cell) for name, pieces in horizons.items()}
+    if domain.bodies:
+        bodies = shapely.union_all(list(domain.bodies.values()))
+        segments = {name: segments_beside(parts, bodies) for name, parts in segments.items()}
     return PickNetwork(curves, segments, domain.where, domain.position, domain.length)
 
 

@@ -39,7 +39,7 @@ def check(section: Section, interpretation: Interpretation, plan: Plan | None = 
     job = RestorationJob(section, interpretation, plan or Plan())
     found = crossing_findings(section, [bed for bed in interpretation.horizons if bed.constrains])
     try:
-        start = Restoration(section, job.plan.spacing)
+        start = job.start
         for step in job.steps:
             found += _check_step(start, job, step)
     except SeiswidgetsError as error:

@@ -1,7 +1,7 @@
 """The rock that a stage starts from: its outline, the mesh that fills it, and positions in the user's units."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +13,7 @@ from seiswidgets.core.linework import follow_border
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.triangulation import DENSITY, CrowdedError, expected_vertices, triangulate, triangulate_to
 from seiswidgets.errors import PickError, number_text
+from seiswidgets.geology.bodies import Region
 from seiswidgets.geology.section import Section
 
 SLACK = 0.1  # of a sample: the largest misfit that counts as met
@@ -37,12 +38,15 @@ class RestorationDomain:
         Mesh spacing requested by the user.
     quick : bool
         True if lines may lose details that are small beside the mesh spacing, for a preview.
+    bodies : dict of str to shapely Polygon or MultiPolygon
+        The bodies by name, which the outline leaves out.
     """
 
     outline: Polygon | MultiPolygon
     section: Section
     requested_spacing: float | None
     quick: bool = False
+    bodies: Mapping[str, Region] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.requested_spacing:

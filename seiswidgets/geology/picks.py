@@ -11,6 +11,7 @@ import shapely
 from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError, SettingError, number_text
+from seiswidgets.geology.bodies import BODY, Body
 from seiswidgets.geology.section import filled
 
 FAULT, HORIZON = "fault", "horizon"
@@ -143,19 +144,20 @@ Pick = TypeVar("Pick", Fault, Horizon)
 
 @dataclass(frozen=True, eq=False)
 class Interpretation:
-    """The faults and horizons of one section, each with a name of its own.
+    """The faults, horizons and bodies of one section, each with a name of its own among its kind.
 
     Raises
     ------
     PickError
-        If two faults, or two horizons, have the same name.
+        If two faults, two horizons or two bodies have the same name.
     """
 
     faults: Sequence[Fault] = ()
     horizons: Sequence[Horizon] = ()
+    bodies: Sequence[Body] = ()
 
     def __post_init__(self) -> None:
-        for kind in ("faults", "horizons"):
+        for kind in ("faults", "horizons", "bodies"):
             object.__setattr__(self, kind, tuple(getattr(self, kind)))
             repeated = [name for name, count in Counter(pick.name for pick in getattr(self, kind)).items() if count > 1]
             if repeated:
@@ -174,14 +176,15 @@ Problem = tuple[str, str, int, str]  # kind and name of a pick, index of the pie
 
 
 def usable(
-    drawn: Iterable[tuple[str, str, Sequence[ArrayLike], str, Ends]],
+    drawn: Iterable[tuple[str, str, Sequence[ArrayLike], str, Ends, str]],
 ) -> tuple[Interpretation, tuple[Problem, ...]]:
     """Make an interpretation of drawn lines, without those that are none, and list the problems of lines.
 
     Parameters
     ----------
-    drawn : iterable of (kind, name, pieces, use, ends)
-        "fault" or "horizon", its name, lists of points (x, z), one list for a fault, its use, and a fault's ends.
+    drawn : iterable of (kind, name, pieces, use, ends, body)
+        "fault", "horizon" or "body", its name, lists of points (x, z), one list unless it is a horizon, its use, a
+        fault's ends, and the kind of a body.
 
     Returns
     -------
@@ -192,8 +195,15 @@ def usable(
     """
     faults: list[Fault] = []
     horizons: list[Horizon] = []
+    bodies: list[Body] = []
     problems: list[Problem] = []
-    for kind, name, pieces, use, ends in drawn:
+    for kind, name, pieces, use, ends, body in drawn:
+        if kind == BODY:
+            try:
+                bodies += [Body(np.asarray(points), body, name) for points in pieces if use != IGNORE]
+            except PickError as error:
+                problems.append((kind, name, 0, str(error)))
+            continue
         good: list[np.ndarray] = []
         for index, piece in enumerate(pieces):
             what = f"fault {name!r}" if kind == FAULT else f"piece {index + 1} of horizon {name!r}"
@@ -208,7 +218,7 @@ def usable(
             faults.append(Fault(good[0], name, ends=ends, use=use))
         elif good:
             horizons.append(Horizon(*good, name=name, use=use))
-    return Interpretation(faults, horizons), tuple(problems)
+    return Interpretation(faults, horizons, bodies), tuple(problems)
 
 
 def _find(picks: Sequence[Pick], kind: str, name: str) -> Pick:

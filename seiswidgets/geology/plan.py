@@ -173,9 +173,14 @@ class RestorationJob:
         return not unused.issuperset(step.picks or [fault.name for fault in self.interpretation.faults])
 
     @property
+    def start(self) -> Restoration:
+        """The restoration before the first step."""
+        return Restoration(self.section, self.plan.spacing, quick=self.quick, bodies=self.interpretation.bodies)
+
+    @property
     def coarse(self) -> "RestorationJob":
         """The job of a preview: on a coarser mesh, with simpler lines, in few iterations."""
-        domain = Restoration(self.section, self.plan.spacing).domain
+        domain = self.start.domain
         few = np.sqrt(domain.outline.area * DENSITY / VERTICES)
         spacing = max(domain.spacing, float(min(COARSE * domain.spacing, few, self._shortest / EDGES)))
         return replace(self, plan=replace(self.plan, spacing=spacing, max_iterations=QUICK), quick=True)
@@ -199,7 +204,7 @@ class RestorationJob:
 
         A step without a pick that can be used is skipped, if there are others; ``Restoration.skipped`` says why.
         """
-        restoration = Restoration(self.section, self.plan.spacing, quick=self.quick)
+        restoration = self.start
         stages = earlier[1].stages if earlier else ()
         reusable = self._count_reusable(earlier[0]) if earlier and not earlier[1].skipped else 0
         for index, step in enumerate(self.steps):
@@ -263,7 +268,15 @@ class RestorationJob:
 
     def _inputs(self) -> Iterator[tuple]:
         """Everything that each step depends on, apart from the section and the steps before it."""
-        shared = (self.plan.solver, self.plan.weighting, self.plan.spacing, self.plan.max_iterations, self.quick)
+        bodies = [(body.name, body.points.tolist()) for body in self.interpretation.bodies]
+        shared = (
+            bodies,
+            self.plan.solver,
+            self.plan.weighting,
+            self.plan.spacing,
+            self.plan.max_iterations,
+            self.quick,
+        )
         for step in self.steps:
             picks: list[Fault | Horizon] = [self.horizon(step)] if step.kind == FLATTEN else [*self.faults(step)]
             picks += [*self.boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else ()

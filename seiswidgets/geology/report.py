@@ -69,6 +69,15 @@ class MotionReport:
 
 
 @dataclass(frozen=True)
+class BodyReport:
+    """Area of a body before and after a step, in square metres of rock."""
+
+    body: str
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
 class Observations:
     """Cut-offs, seams, beds and findings of a stage."""
 
@@ -112,6 +121,8 @@ class Report:
         Flatness in the unit of z.
     motions : tuple of MotionReport
         Rigid motion of each block or limb, the largest first.
+    bodies : tuple of BodyReport
+        Areas in square metres.
     findings : tuple of Finding
         Observations worth showing, problems first: a solver that did not settle; cut-offs, contacts and levels that
         are more than a tenth of a sample off; rock on rock, and gaps; beds that changed their length; faults that end
@@ -141,6 +152,7 @@ class Report:
     seams: tuple[SeamReport, ...] = ()
     beds: tuple[BedReport, ...] = ()
     motions: tuple[MotionReport, ...] = ()
+    bodies: tuple[BodyReport, ...] = ()
     findings: tuple[Finding, ...] = ()
     mesher: str = ""
     x_unit: str = "m"
@@ -169,6 +181,7 @@ class Report:
         percentiles = ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())
         rows.append(("area ratio, before / after", f"{percentiles}; above 1, restoring compressed the rock"))
         rows.append(("overlap and gaps", f"{self.overlap:.3g} m² of rock on other rock, {self.gap:.3g} m² of gaps"))
+        rows += [(f"body {body.body}", self._body(body)) for body in self.bodies]
         rows += [("motion", self._motion(motion)) for motion in self.motions]
         return rows + self._solver_rows()
 
@@ -182,6 +195,10 @@ class Report:
     def _bed(self, bed: BedReport) -> str:
         level = "" if bed.flatness is None else f", {bed.flatness:.2g} {self.z_unit} RMS from the datum"
         return f"bed length {bed.length_change:+.2%}{level}"
+
+    def _body(self, body: BodyReport) -> str:
+        change = body.after / body.before - 1
+        return f"area {body.before:.4g} m² before, {body.after:.4g} m² after ({change:+.1%})"
 
     def _motion(self, motion: MotionReport) -> str:
         turn = f"{abs(motion.rotation):.1f}° {'clockwise' if motion.rotation >= 0 else 'anticlockwise'}"

@@ -12,6 +12,7 @@ from shapely import LineString
 
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
+from seiswidgets.geology.bodies import Body, body_polygons, without_bodies
 from seiswidgets.geology.clipping import CLIPPED, clip_findings
 from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.domain import RestorationDomain
@@ -27,6 +28,7 @@ from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.transfer import (
     OUTSIDE,
     area_ratio_at,
+    carried_body,
     carried_boundaries,
     carried_fault,
     carried_horizon,
@@ -61,11 +63,15 @@ class Restoration:
         True if lines may lose details that are small beside the mesh spacing, for a preview.
     skipped : tuple of Finding
         The reasons why steps of a plan were skipped.
+    bodies : list of Body, optional
+        Areas that are left out of the mesh.
 
     Raises
     ------
     SettingError
         If the spacing is not above 0.
+    PickError
+        From its first step on, if a body lies outside the section.
 
     Examples
     --------
@@ -83,6 +89,7 @@ class Restoration:
     stages: tuple[Stage, ...] = ()
     quick: bool = False
     skipped: tuple[Finding, ...] = ()
+    bodies: Sequence[Body] = ()
 
     def __post_init__(self) -> None:
         if not isinstance(self.original, Section):
@@ -302,8 +309,12 @@ class Restoration:
         """The rock that the next stage starts from."""
         x_min, x_max, z_min, z_max = self.original.extent
         corners = self.original.to_rock([(x_min, z_min), (x_max, z_max)])
-        outline = self.stages[-1].outline if self.stages else shapely.box(*corners.ravel())
-        return RestorationDomain(outline, self.original, self.spacing, self.quick)
+        if self.stages:
+            outline, bodies = self.stages[-1].outline, self.stages[-1].carried_bodies
+        else:
+            bodies = body_polygons(self.original, self.bodies)
+            outline = without_bodies(shapely.box(*corners.ravel()), bodies)
+        return RestorationDomain(outline, self.original, self.spacing, self.quick, bodies)
 
     def to_restored(self, points: ArrayLike) -> np.ndarray:
         """Carry points of the original section through all stages, NaN outside; in its units, shape (n, 2)."""
@@ -425,13 +436,15 @@ class Restoration:
         """The maps of `to_original`, stage by stage; as `maps_to_restored`."""
         return [(target, source, triangles) for source, target, triangles in reversed(self.maps_to_restored)]
 
-    def carried(self, pick: Fault | Horizon) -> list[np.ndarray]:
-        """Lines of a fault or a horizon after all stages, each of shape (n, 2), in the section's units.
+    def carried(self, pick: Fault | Horizon | Body) -> list[np.ndarray]:
+        """Lines of a pick after all stages, each of shape (n, 2), in the section's units; of a body, its closed border.
 
         There are none if it lies outside the section.
         """
         try:
-            if isinstance(pick, Fault):
+            if isinstance(pick, Body):
+                lines = carried_body(self.original, self.stages, pick)
+            elif isinstance(pick, Fault):
                 first = self.stages[0].domain if self.stages else None
                 lines = [LineString(carried_fault(self.original, self.stages, pick, first))]
             else:

@@ -181,6 +181,20 @@ def _reach(line: LineString, direction: np.ndarray, cell: np.ndarray | None) -> 
     return max(least, min(_most(direction, cell), line.length))
 
 
+def segments_beside(segments: Sequence[HorizonSegment], region: BaseGeometry) -> list[HorizonSegment]:
+    """The parts of segments outside a region, such as salt; an end inside it is no end at a fault any more."""
+    beside: list[HorizonSegment] = []
+    for segment in segments:
+        parts = [part for part in shapely.get_parts(segment.line.difference(region)) if part.length > 0]
+        for part in parts:
+            first, last = (
+                end if shapely.dwithin(Point(segment.line.coords[which]), Point(part.coords[which]), 1e-6) else None
+                for which, end in zip((0, -1), segment.ends, strict=True)
+            )
+            beside.append(replace(segment, line=part, ends=(first, last)))
+    return beside
+
+
 def nearest_fault_ahead(
     line: LineString, which: int, faults: Sequence[LineString], cell: np.ndarray | None, reach: float | None = None
 ) -> End | None:

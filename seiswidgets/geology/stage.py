@@ -18,10 +18,11 @@ from seiswidgets.core.rigid import part_of_motion
 from seiswidgets.core.seams import new_holes, outline
 from seiswidgets.core.solver import Solution
 from seiswidgets.errors import Keyword, Text
+from seiswidgets.geology.bodies import Region
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.motion import observe_motion
-from seiswidgets.geology.report import Observations, Report
+from seiswidgets.geology.report import BodyReport, Observations, Report
 from seiswidgets.geology.segments import horizon_segments, join_pieces
 from seiswidgets.geology.shared_stretches import follow, split_into_stretches
 from seiswidgets.geology.weights import Weights
@@ -30,6 +31,7 @@ SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to
 PERCENTS = (1, 50, 99)
 FINE, LEAST_POINTS = 0.25, 64  # a line is carried at points a quarter of the spacing apart, and at least this many
 WITHIN = np.vstack([np.full(3, 1 / 3), 0.1 + 0.7 * np.eye(3), 0.45 - 0.35 * np.eye(3)])  # points in a triangle
+COMPASS = [np.array([np.sin(turn), np.cos(turn)]) for turn in np.pi / 4 * np.arange(8)]
 CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
 
 
@@ -174,6 +176,9 @@ class Stage:
             seams=observations.seams,
             beds=observations.beds,
             motions=motions,
+            bodies=tuple(
+                BodyReport(name, body.area, self.carried_bodies[name].area) for name, body in self.domain.bodies.items()
+            ),
             findings=worst_first(findings),
             x_unit=self.domain.section.x_unit,
             z_unit=self.domain.section.z_unit,
@@ -290,6 +295,29 @@ class Stage:
             if lines
         ]
         return min(ways, key=lambda lines: round(_gaps(lines) / (CLOSED * self.spacing)))
+
+    @cached_property
+    def carried_bodies(self) -> dict[str, Region]:
+        """The bodies after the step, by name."""
+        return {name: self.carried_body(body) for name, body in self.domain.bodies.items()}
+
+    def carried_body(self, body: Region) -> Region:
+        """A body after the step, as far as there is rock around it: its border moves with that rock."""
+        parts = [self._carry_ring(part.exterior) for part in shapely.get_parts(body)]
+        return shapely.union_all([part for part in parts if part is not None])
+
+    def _carry_ring(self, ring: shapely.LinearRing) -> Region | None:
+        points = shapely.get_coordinates(ring.segmentize(FINE * self.spacing))[:-1]
+        along = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
+        outwards = along[:, ::-1] * [1, -1] * (1 if ring.is_ccw else -1)
+        outwards /= np.maximum(np.hypot(*outwards.T), np.finfo(float).tiny)[:, None]
+        triangles = np.full(len(points), -1)
+        for direction in (outwards, *COMPASS):  # at a corner on the border, the rock lies in another one
+            missing = np.flatnonzero(triangles < 0)
+            triangles[missing] = self.map.source_finder((points + INWARDS * self.spacing * direction)[missing])
+        moved = self.map.forward(points, triangles)
+        moved = moved[np.isfinite(moved).all(axis=1)]
+        return Polygon(moved).buffer(0) if len(moved) > 2 else None
 
     def _carry(self, lines: Iterable[LineString], sideways: float) -> list[LineString]:
         carried = [self._carry_line(line, sideways) for line in lines]

@@ -12,6 +12,7 @@ from shapely import LineString
 from seiswidgets.core.resampling import resample
 from seiswidgets.errors import PickError
 from seiswidgets.geology import validation
+from seiswidgets.geology.bodies import Body, body_polygons
 from seiswidgets.geology.clipping import clip_line
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_curves import fault_curve
@@ -82,6 +83,14 @@ def carried_horizon(
     for stage in stages:
         lines = stage.carried_horizon(lines)
     return lines
+
+
+def carried_body(original: Section, stages: Sequence[Stage], body: Body) -> list[LineString]:
+    """The closed borders of a body's parts after some stages."""
+    region = body_polygons(original, [body])[body.name]
+    for stage in stages:
+        region = stage.carried_body(region)
+    return [LineString(part.exterior) for part in shapely.get_parts(region)]
 
 
 def _outside(original: Section, what: str, pick: Fault | Horizon) -> PickError:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seiswidgets.errors import PickError, SettingError
+from seiswidgets.geology.bodies import BODY, SALT, check_kind
 from seiswidgets.geology.pick_colours import COLOURS
 from seiswidgets.geology.picks import (
     AUTO,
@@ -27,7 +28,7 @@ from seiswidgets.geology.picks import (
 )
 from seiswidgets.geology.section import Section
 
-LETTERS = {FAULT: "F", HORIZON: "H"}
+LETTERS = {FAULT: "F", HORIZON: "H", BODY: "B"}
 
 Point = tuple[float, float]
 Points = tuple[Point, ...]
@@ -36,11 +37,11 @@ _usable = lru_cache(maxsize=64)(usable)  # every property of a drawing needs it
 
 @dataclass(frozen=True)
 class Pick:
-    """A fault, of one piece, or a horizon, of any number of pieces.
+    """A fault or a body, of one piece, or a horizon, of any number of pieces.
 
     Attributes
     ----------
-    kind : {"fault", "horizon"}
+    kind : {"fault", "horizon", "body"}
     name : str
     pieces : tuple of tuples of points (x, z)
     colour : str
@@ -51,6 +52,8 @@ class Pick:
         See `Fault` and `Horizon`.
     ends : pair of {"auto", "tip", "extend"}
         See `Fault`.
+    body : {"salt", "no data"}
+        See `Body`.
     """
 
     kind: str
@@ -60,6 +63,7 @@ class Pick:
     visible: bool = True
     use: str = CONSTRAIN
     ends: Ends = AUTO_ENDS
+    body: str = SALT
 
 
 @dataclass(frozen=True)
@@ -68,7 +72,7 @@ class DraftLine:
 
     Attributes
     ----------
-    kind : {"fault", "horizon"}
+    kind : {"fault", "horizon", "body"}
     points : tuple of points (x, z)
     name : str or None
         Name of the pick that the line becomes a piece of; None if it becomes a new pick.
@@ -112,7 +116,7 @@ class Drawing:
         return tuple(pick.name for pick in self.picks if pick.kind == kind)
 
     def free_name(self, kind: str) -> str:
-        """First of F1, F2, ... or H1, H2, ... that is not in use."""
+        """First of F1, F2, ..., H1, H2, ... or B1, B2, ... that is not in use."""
         names = self.names(kind)
         return next(name for index in range(1, len(names) + 2) if (name := f"{LETTERS[kind]}{index}") not in names)
 
@@ -195,7 +199,7 @@ class Drawing:
         Raises
         ------
         PickError
-            If the name is empty, or if another fault has it.
+            If the name is empty, or if another fault or body has it.
         """
         pick, new = self.pick(kind, name), str(new).strip()
         if not new:
@@ -204,8 +208,8 @@ class Drawing:
             return self
         if new not in self.names(kind):
             return self._with_changes(kind, name, name=new)._with_draft_renamed(kind, name, new)
-        if kind == FAULT:
-            raise PickError(f"there is a fault called {new!r} already; give each a name of its own", pick=name)
+        if kind != HORIZON:
+            raise PickError(f"there is a {kind} called {new!r} already; give each a name of its own", pick=name)
         joined = self._with_changes(kind, new, pieces=self.pick(kind, new).pieces + pick.pieces)
         return joined.without_pick(kind, name)._with_draft_renamed(kind, name, new)
 
@@ -224,6 +228,11 @@ class Drawing:
         check_use(name, use)
         return self._with_changes(kind, name, use=use)
 
+    def with_body_kind(self, name: str, body: str) -> "Drawing":
+        """Say whether a body is salt or an area without data."""
+        check_kind(name, body)
+        return self._with_changes(BODY, name, body=body)
+
     def without_pick(self, kind: str, name: str) -> "Drawing":
         """Delete a pick."""
         deleted = self.pick(kind, name)
@@ -239,6 +248,9 @@ class Drawing:
             pieces, ends = ((pick.points,), pick.ends) if isinstance(pick, Fault) else (pick.pieces, AUTO)
             colour, visible = looks.get((kind, pick.name), (None, True))
             drawing = drawing.with_pick(kind, pick.name, pieces, colour, visible, pick.use, ends)
+        for body in interpretation.bodies:
+            colour, visible = looks.get((BODY, body.name), (None, True))
+            drawing = drawing.with_pick(BODY, body.name, [body.points], colour, visible, body=body.kind)
         return drawing
 
     def with_pick(
@@ -250,10 +262,11 @@ class Drawing:
         visible: bool = True,
         use: str = CONSTRAIN,
         ends: str | Ends = AUTO,
+        body: str = SALT,
     ) -> "Drawing":
         """Add a pick, in a colour of its own if none is given."""
         points, colour = tuple(map(_points, pieces)), colour or self._free_colour(kind)
-        new = Pick(kind, name, points, colour, visible, use, both_ends(ends))
+        new = Pick(kind, name, points, colour, visible, use, both_ends(ends), body)
         return replace(self, picks=(*self.picks, new))
 
     def lies_on(self, section: Section) -> bool:
@@ -285,7 +298,9 @@ class Drawing:
 
     @property
     def _checked(self) -> tuple[Interpretation, tuple[tuple[str, str, int, str], ...]]:
-        return _usable(tuple((pick.kind, pick.name, pick.pieces, pick.use, pick.ends) for pick in self.picks))
+        return _usable(
+            tuple((pick.kind, pick.name, pick.pieces, pick.use, pick.ends, pick.body) for pick in self.picks)
+        )
 
     def _with_vertices(self, target: PickSelection, inserted: Sequence[Sequence[float]], removed: int) -> "Drawing":
         """Replace some vertices from the target on by others."""

@@ -9,11 +9,10 @@ from typing import Any
 from traitlets import Bunch, HasTraits, TraitError
 
 from seiswidgets.errors import DataError, SeiswidgetsError
-from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
-from seiswidgets.interaction.drawing import DraftLine, Drawing
+from seiswidgets.interaction.drawing import LETTERS, DraftLine, Drawing
 from seiswidgets.io.document import MOST_JSON_BYTES, Entry, json_text, parse_json
 from seiswidgets.io.session.file import session_document, session_fields
 from seiswidgets.io.session.session import Session
@@ -115,8 +114,8 @@ def _settings_of(app: RestorationApp) -> list[tuple[HasTraits, str]]:
 
 def _line(entry: Entry) -> DraftLine:
     kind = entry["kind"].text()
-    if kind not in (FAULT, HORIZON):
-        raise entry["kind"].error(f'"{FAULT}" or "{HORIZON}"')
+    if kind not in LETTERS:
+        raise entry["kind"].error(" or ".join(f'"{known}"' for known in LETTERS))
     points = entry["points"].points()
     if not points:
         raise entry["points"].error("one point or more")

@@ -22,13 +22,20 @@ PLAN = sw.Plan(
     max_iterations=40,
     weighting="rows",
 )
-LOOKS = {("fault", "F1"): {"colour": "#e69f00"}, ("horizon", "H2"): {"colour": "teal", "visible": False}}
+BODY = sw.Body([(3300.0, 1500.0), (3700.0, 1500.0), (3500.0, 1800.0)], kind="no data", name="B1")
+LOOKS = {
+    ("body", "B1"): {"colour": "#123456"},
+    ("fault", "F1"): {"colour": "#e69f00"},
+    ("horizon", "H2"): {"colour": "teal", "visible": False},
+}
 CROSSED = ((0.0, 0.0), (20.0, 20.0), (20.0, 0.0), (0.0, 20.0))
 
 
 @pytest.fixture(scope="module")
 def case():
-    return sw.synthetic.faulted_fold(throw=120.0, horizons=[700.0, 1000.0], seed=3)
+    """A section and its picks, a body among them."""
+    case = sw.synthetic.faulted_fold(throw=120.0, horizons=[700.0, 1000.0], seed=3)
+    return replace(case, interpretation=replace(case.interpretation, bodies=[BODY]))
 
 
 @pytest.fixture(scope="module")

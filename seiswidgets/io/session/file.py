@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError, Text
+from seiswidgets.geology.bodies import SALT
 from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.weights import Weights
@@ -35,6 +36,7 @@ class SessionFields(TypedDict):
     sha256: str | None
     faults: tuple[SavedPick, ...]
     horizons: tuple[SavedPick, ...]
+    bodies: tuple[SavedPick, ...]
     plan: Plan
     written_by: str
 
@@ -78,6 +80,10 @@ def session_document(session: "Session", path: Path) -> dict[str, Any]:
         "picks": {
             "faults": [{"name": pick.name, "points": pick.pieces[0], **_style(pick)} for pick in session.faults],
             "horizons": [{"name": pick.name, "pieces": pick.pieces, **_style(pick)} for pick in session.horizons],
+            "bodies": [
+                {"name": pick.name, "kind": pick.body, "points": pick.pieces[0], **_style(pick)}
+                for pick in session.bodies
+            ],
             "fixed": session.fixed,
             "pins": session.plan.pins,
             "regional": session.plan.regional,
@@ -116,6 +122,7 @@ def session_fields(entry: Entry, allow_outside: bool) -> SessionFields:
         "sha256": section.optional("sha256", _sha256, None),
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
+        "bodies": picks.optional("bodies", _faults, ()),
         "plan": _with_holds(document.optional("plan", _plan, Plan()), picks),
         "written_by": document.optional("written_by", Entry.text, ""),
     }
@@ -203,7 +210,8 @@ def _picks(entry: Entry, read_pieces: Callable[[Entry], tuple[Points, ...]]) -> 
         colour, visible = item.optional("colour", Entry.text, None), item.optional("visible", Entry.flag, True)
         use = item.optional("use", Entry.text, CONSTRAIN)
         ends = item.optional("ends", _ends, AUTO_ENDS)
-        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible, use, ends)
+        body = item.optional("kind", Entry.text, SALT)
+        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible, use, ends, body)
     return tuple(picks.values())
 
 

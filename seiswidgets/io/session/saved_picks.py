@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seiswidgets.errors import PickError, SettingError
+from seiswidgets.geology.bodies import SALT, Body, check_kind
 from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends, Fault, Horizon, both_ends, check_use
 from seiswidgets.io.document import Points
 
@@ -14,7 +15,7 @@ COLOUR = re.compile(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]{1,40}")  # nothin
 
 @dataclass(frozen=True)
 class SavedPick:
-    """A fault with one piece, or a horizon with any number of pieces.
+    """A fault or a body with one piece, or a horizon with any number of pieces.
 
     Attributes
     ----------
@@ -29,6 +30,8 @@ class SavedPick:
         See `Fault` and `Horizon`.
     ends : pair of {"auto", "tip", "extend"}
         See `Fault`.
+    body : {"salt", "no data"}
+        See `Body`.
 
     Raises
     ------
@@ -44,6 +47,7 @@ class SavedPick:
     visible: bool = True
     use: str = CONSTRAIN
     ends: Ends = AUTO_ENDS
+    body: str = SALT
 
     def __post_init__(self) -> None:
         if any("\ud800" <= letter <= "\udfff" for letter in self.name):
@@ -54,10 +58,11 @@ class SavedPick:
                 pick=self.name,
             )
         check_use(self.name, self.use)
+        check_kind(self.name, self.body)
         object.__setattr__(self, "ends", both_ends(self.ends))
 
 
-def saved_pick(pick: Fault | Horizon, style: Mapping[str, Any] | None = None) -> SavedPick:
+def saved_pick(pick: Fault | Horizon | Body, style: Mapping[str, Any] | None = None) -> SavedPick:
     """Convert a pick of an interpretation; SettingError if its style has other keys than colour and visible."""
     style = style or {}
     if unknown := set(style) - {"colour", "visible"}:
@@ -65,6 +70,9 @@ def saved_pick(pick: Fault | Horizon, style: Mapping[str, Any] | None = None) ->
             f"the looks of {pick.name!r} may be colour and visible, but not {', '.join(map(str, unknown))}",
             pick=pick.name,
         )
-    pieces, ends = ((pick.points,), both_ends(pick.ends)) if isinstance(pick, Fault) else (pick.pieces, AUTO_ENDS)
+    pieces = pick.pieces if isinstance(pick, Horizon) else (pick.points,)
     points = tuple(tuple((x, z) for x, z in piece.tolist()) for piece in pieces)
+    if isinstance(pick, Body):
+        return SavedPick(pick.name, points, **style, body=pick.kind)
+    ends = both_ends(pick.ends) if isinstance(pick, Fault) else AUTO_ENDS
     return SavedPick(pick.name, points, **style, use=pick.use, ends=ends)

@@ -8,6 +8,7 @@ from typing import Any
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, Keyword, PickError
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
@@ -36,11 +37,12 @@ class Session:
         Includes the held point.
     written_by : str
         The version of seiswidgets that wrote it.
+    bodies : tuple of SavedPick
 
     Raises
     ------
     PickError
-        If a fault is not one line, or two faults or two horizons have the same name.
+        If a fault or a body is not one line, or two picks of a kind have the same name.
     SettingError
         If the source or the plan has the wrong type.
 
@@ -60,21 +62,23 @@ class Session:
     horizons: tuple[SavedPick, ...] = ()
     plan: Plan = field(default_factory=Plan)
     written_by: str = field(default=f"seiswidgets {__version__}", compare=False)
+    bodies: tuple[SavedPick, ...] = ()
 
     def __post_init__(self) -> None:
         checked_kind(self.source, SectionSource, "source")
         checked_kind(self.plan, Plan, "plan")
-        for picks in (self.faults, self.horizons):
+        for picks in (self.faults, self.horizons, self.bodies):
             names = [pick.name for pick in picks]
             if len(set(names)) < len(names):
                 name = max(names, key=names.count)
                 raise PickError(f"two picks are called {name!r}; give each a name of its own", pick=name)
-        for fault in self.faults:
-            if len(fault.pieces) != 1:
-                raise PickError(
-                    f"fault {fault.name!r} must be one line, but has {len(fault.pieces)}; give each line a name",
-                    pick=fault.name,
-                )
+        for kind, picks in ((FAULT, self.faults), (BODY, self.bodies)):
+            for pick in picks:
+                if len(pick.pieces) != 1:
+                    raise PickError(
+                        f"{kind} {pick.name!r} must be one line, but has {len(pick.pieces)}; give each line a name",
+                        pick=pick.name,
+                    )
 
     @classmethod
     def of(
@@ -115,6 +119,7 @@ class Session:
             tuple(saved_pick(fault, looks.get((FAULT, fault.name))) for fault in interpretation.faults),
             tuple(saved_pick(horizon, looks.get((HORIZON, horizon.name))) for horizon in interpretation.horizons),
             plan if fixed is None else replace(plan, fixed=fixed),
+            bodies=tuple(saved_pick(body, looks.get((BODY, body.name))) for body in interpretation.bodies),
         )
 
     def save(self, path: str | os.PathLike) -> None:
@@ -149,8 +154,10 @@ class Session:
         return [message for *_, message in self._usable_picks()[1]]
 
     def _usable_picks(self) -> tuple[Interpretation, tuple]:
-        kinds = ((FAULT, self.faults), (HORIZON, self.horizons))
-        return usable((kind, pick.name, pick.pieces, pick.use, pick.ends) for kind, picks in kinds for pick in picks)
+        kinds = ((FAULT, self.faults), (HORIZON, self.horizons), (BODY, self.bodies))
+        return usable(
+            (kind, pick.name, pick.pieces, pick.use, pick.ends, pick.body) for kind, picks in kinds for pick in picks
+        )
 
     def open_section(self, *, allow_changed: bool = False) -> Section:
         """Open the section from its source.

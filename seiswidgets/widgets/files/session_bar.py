@@ -11,6 +11,7 @@ from ipywidgets import Dropdown, Layout, VBox, Widget
 from traitlets import Bunch
 
 from seiswidgets.errors import DataError, SettingError, Text
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.document import Document
@@ -336,19 +337,22 @@ def _to_save(document: Document, sha256: str, path: Path) -> Session | SessionWi
 
 def session_of(document: Document, source: SectionSource, sha256: str) -> Session:
     """Session of a document whose section has a known source and hash, without the draft line."""
-    faults, horizons = (_saved_picks(document.drawing, kind) for kind in (FAULT, HORIZON))
-    return Session(source, sha256, faults, horizons, document.plan)
+    faults, horizons, bodies = (_saved_picks(document.drawing, kind) for kind in (FAULT, HORIZON, BODY))
+    return Session(source, sha256, faults, horizons, document.plan, bodies=bodies)
 
 
 def _saved_picks(drawing: Drawing, kind: str) -> tuple[SavedPick, ...]:
     picks = (pick for pick in drawing.picks if pick.kind == kind)
-    return tuple(SavedPick(pick.name, pick.pieces, pick.colour, pick.visible, pick.use, pick.ends) for pick in picks)
+    return tuple(
+        SavedPick(pick.name, pick.pieces, pick.colour, pick.visible, pick.use, pick.ends, pick.body) for pick in picks
+    )
 
 
 def drawing_of(session: Session) -> Drawing:
     """Picks of a session with their styles, unusable ones included."""
     drawing = Drawing()
-    for kind, picks in ((FAULT, session.faults), (HORIZON, session.horizons)):
+    for kind, picks in ((FAULT, session.faults), (HORIZON, session.horizons), (BODY, session.bodies)):
         for pick in picks:
-            drawing = drawing.with_pick(kind, pick.name, pick.pieces, pick.colour, pick.visible, pick.use, pick.ends)
+            looks = pick.colour, pick.visible, pick.use, pick.ends, pick.body
+            drawing = drawing.with_pick(kind, pick.name, pick.pieces, *looks)
     return drawing
