@@ -461,6 +461,19 @@ def test_missing_traces_of_a_line_of_a_volume_leave_gaps(save, missing, step):
     assert not np.isnan(opened(path, crossline=20 * step).amplitude).any()
 
 
+@pytest.mark.parametrize("numbers", [193, 21])
+@pytest.mark.parametrize("missing", [{25}, {25, 26, 40}])
+def test_missing_traces_of_a_files_only_line_leave_gaps(save, numbers, missing):
+    kept = [n for n in range(COUNT) if n not in missing]
+    path = save([{181: EAST + 25 * n, 185: NORTH, numbers: 100 + 2 * n} for n in kept])
+    section = opened(path)
+    assert (section.shape, section.dx) == ((8, COUNT), 25)
+    assert set(np.flatnonzero(np.isnan(section.amplitude).all(axis=0))) == missing
+    assert opened(path, dx=20).shape == (8, COUNT)
+    sparse = save([{181: EAST + 25 * n, 185: NORTH, numbers: 100 + n + n // 9} for n in range(COUNT)])
+    assert not np.isnan(opened(sparse).amplitude).any()
+
+
 def test_headers_of_a_line_with_gaps_are_continued(save, tmp_path):
     places = [(i, x) for i in (1, 2) for x in range(20, 30) if (i, x) != (2, 25)]
     path = save([volume_at(*place) for place in places])

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seiswidgets.errors import Keyword, SettingError
+from seiswidgets.errors import DataError, Keyword, SettingError
 from seiswidgets.io.options import OpenOptions, Progress, report_progress
 from seiswidgets.io.segy.layout import Layout
+from seiswidgets.io.segy.positions import positions
 from seiswidgets.io.segy.traces import TraceHeaders
 from seiswidgets.io.segy.volumes import OTHER, WINDOW, Volume, first_line, line_numbers, lines_of_volume, volume
 
@@ -120,7 +121,26 @@ def _one_line(headers: TraceHeaders, traces: np.ndarray, offset: int | None) -> 
     places = np.column_stack([headers(name, traces) for name in (CDP, "x", "y")])
     _, place = np.unique(places, axis=0, return_inverse=True)
     gathers = offset is not None or (place.any() and _offsets_at_one_place(headers, traces, place.ravel()))
-    return Line.without_gaps(_of_one_offset(headers, traces, offset) if gathers else traces)
+    return _with_gaps(headers, _of_one_offset(headers, traces, offset) if gathers else traces)
+
+
+def _with_gaps(headers: TraceHeaders, traces: np.ndarray) -> Line:
+    """A file's only line, with a column for each missing trace if numbers and positions reveal it."""
+    whole = Line.without_gaps(traces)
+    try:
+        found = positions(headers, traces)
+    except DataError:  # which is reported when the spacing is measured
+        return whole
+    if found.is_even:
+        return whole
+    for name in ("crossline", CDP):
+        numbers = headers(name, traces)
+        steps = np.diff(numbers)
+        if (steps > 0).all() or (steps < 0).all():
+            columns = _columns(numbers)
+            if found.at(columns).is_even:
+                return Line(traces, columns)
+    return whole
 
 
 def _sorted_line(headers: TraceHeaders, name: str, traces: np.ndarray, offset: int | None) -> Line:
