@@ -105,8 +105,11 @@ class Contact(PaperTerm):
             kept = eligible & (past[np.arange(len(nearest)), self.partner] < stay)
             nearest = np.where(kept, self.partner, nearest)
         foot, ends = along[np.arange(len(nearest)), nearest], self._open[nearest]
-        reach = stay + 1e-9
-        first, last = ends[:, 0] & (foot < -reach), ends[:, 1] & (foot > 1 + reach)
+        margin = np.where(
+            np.isin(self.segments[nearest], self.continued), 0, np.broadcast_to(stay, foot.shape)[:, None]
+        )
+        reach = margin + 1e-9  # none where another fault goes on: rock would sink into it
+        first, last = ends[:, 0] & (foot < -reach[:, 0]), ends[:, 1] & (foot > 1 + reach[:, 1])
         end = np.where(first, self.segments[nearest, 0], np.where(last, self.segments[nearest, 1], -1))
         return np.where(end < 0, nearest, -1), end
 

@@ -1,5 +1,7 @@
 """A ramp that branches off a floor: three blocks, and the sides that may come to lie on each other."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -66,3 +68,18 @@ def test_a_side_beyond_its_end_is_held_to_the_continuation(branch):
     height = FOOT[1] - vertices[term.held_points, 1]
     on_floor = term.partner[term.partner >= 0] >= term.own
     np.testing.assert_allclose(np.abs(term.distances(vertices))[on_floor], height[on_floor], atol=1e-6)
+
+
+def test_a_point_that_keeps_its_partner_a_little_beyond_an_end_does_not_where_the_floor_goes_on(branch):
+    """It would sink into the floor by its distance from the end times the sine of the turn."""
+    dip, cut, sides, found = branch
+    if dip > 45:
+        return
+    mesh = cut.mesh
+    sheet = mesh.blocks == mesh.blocks[sides[1][RAMP_SIDES["sheet"], 0, 0]]
+    line = shapely.LineString([FOOT, (FOOT[0] + 800 / np.tan(np.radians(dip)), 0)])
+    term = contacts(mesh, sides[1], line, 1.0, "contact", found[1])[RAMP_SIDES["sheet"]].with_contacts(mesh.vertices)
+    returning = replace(term, stay=np.full(len(term.points), 0.5))
+    slid = returning.with_contacts(mesh.vertices - np.outer(sheet, [40.0, 0.0]))
+    foot = np.argmax(mesh.vertices[term.points, 1])
+    assert slid.partner[foot] >= term.own
