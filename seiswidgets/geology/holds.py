@@ -1,4 +1,4 @@
-"""What stays where it is while blocks slide: a block, points or a level; and the motion that this leaves free."""
+"""Blocks, points and levels that are held while blocks slide, and the rigid motion that they leave free."""
 
 from dataclasses import dataclass, field
 from functools import cached_property

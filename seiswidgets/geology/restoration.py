@@ -174,7 +174,7 @@ class Restoration:
     def holds(
         self, fixed: tuple[float, float] | None, pins: Sequence[tuple[float, float]], regional: Regional
     ) -> Holds:
-        """What holds the section, after the stages so far."""
+        """The points that hold the section, after the stages so far."""
         x_min, x_max, *_ = self.original.extent
         ends = [(x_min, regional), (x_max, regional)] if isinstance(regional, int | float) else regional
         pinned, level = (
