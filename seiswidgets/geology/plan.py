@@ -24,7 +24,7 @@ from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.weights import Weights
 
 UNFAULT, FLATTEN = "unfault", "flatten"
-UNUSED_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch", "rotation")}
+UNUSED_WEIGHTS = {UNFAULT: ("flatten", "length", "bedding"), FLATTEN: ("slide", "stitch", "rotation")}
 COARSE, QUICK = 3.0, 2  # a preview's mesh spacing as a multiple of the full one, and its number of iterations
 EDGES, VERTICES = 3, 100  # least numbers in a preview's mesh: edges along each pick, vertices in all
 
@@ -237,7 +237,12 @@ class RestorationJob:
             return restoration.unfault(
                 faults, horizons, boundaries=others, fixed=fixed, pins=pins, regional=regional, **options
             )
-        return restoration.flatten(self.horizon(step), datum=step.datum, **options)
+        return restoration.flatten(self.horizon(step), datum=step.datum, beds=self._beds, **options)
+
+    @property
+    def _beds(self) -> Sequence[Horizon]:
+        """The horizons that give the direction of the beds, if the plan asks for it."""
+        return self.interpretation.horizons if self.plan.weights.bedding else ()
 
     def faults(self, step: Step) -> list[Fault]:
         """The faults that a step slides along; PickError if one does not exist."""
@@ -279,7 +284,7 @@ class RestorationJob:
         )
         for step in self.steps:
             picks: list[Fault | Horizon] = [self.horizon(step)] if step.kind == FLATTEN else [*self.faults(step)]
-            picks += [*self.boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else ()
+            picks += [*self.boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else self._beds
             names = [field.name for field in fields(Weights) if field.name not in UNUSED_WEIGHTS[step.kind]]
             weights = [getattr(self.plan.weights, name) for name in names]
             holds = (self.plan.fixed, self.plan.pins, self.plan.regional) if step.kind == UNFAULT else ()

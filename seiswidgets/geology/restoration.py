@@ -257,7 +257,12 @@ class Restoration:
         return replace(finding, where=(float(x), float(z)) if np.isfinite([x, z]).all() else None)
 
     def flatten(
-        self, horizon: Horizon, *, datum: float | None = None, **options: Unpack[SolverKeywords]
+        self,
+        horizon: Horizon,
+        *,
+        datum: float | None = None,
+        beds: Sequence[Horizon] = (),
+        **options: Unpack[SolverKeywords],
     ) -> "Restoration":
         """Bring a horizon to one level while it keeps its length (the paper's section 3.2).
 
@@ -271,6 +276,8 @@ class Restoration:
         horizon : Horizon
         datum : float, optional
             The level, in the section's unit of z; the horizon's mean level if left out.
+        beds : list of Horizon, optional
+            Horizons that give the direction of the beds besides this one, for ``weights.bedding``.
         weights, solver, weighting, max_iterations, progress, start
             As for `unfault`.
 
@@ -282,9 +289,10 @@ class Restoration:
         solver_options = SolverOptions.from_keywords("flatten", options)
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
         pieces = self._bed_lines(horizon)
+        guides = [line for bed in beds if bed.name != horizon.name and bed.constrains for line in self._bed_lines(bed)]
         if datum is not None:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
-        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options)
+        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, guides)
         return self._with_stage(replace(stage, weights=solver_options.weights), self._notes([horizon]))
 
     def check_flattening(self, horizon: Horizon) -> tuple[Finding, ...]:

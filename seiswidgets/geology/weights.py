@@ -21,6 +21,9 @@ class Weights:
         Its zeta and lambda while flattening: the horizon becomes level, and keeps its length.
     rotation : float
         Not in the paper, and off by default: how strongly blocks are kept from turning while unfaulting.
+    bedding : float
+        Not in the paper, and off by default: how strongly areas, and lengths along the beds, are kept in all the rock
+        while flattening, so that beds slip past each other as in a flexural-slip fold; 10 is a good value.
 
     Those of a line (stitch, flatten, length) are multiplied by the root of the number of its edges, so that they mean
     the same on a fine mesh as on a coarse one.
@@ -39,6 +42,7 @@ class Weights:
     flatten: float = 10.0
     length: float = 10.0
     rotation: float = 0.0
+    bedding: float = 0.0
 
     def __post_init__(self) -> None:
         values = {field.name: getattr(self, field.name) for field in fields(self)}

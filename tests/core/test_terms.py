@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from seiswidgets.core.bedding import AreaChange, BedStretch
 from seiswidgets.core.contact import contacts
 from seiswidgets.core.solver import update_contacts
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue, Stitch
@@ -8,6 +9,8 @@ from tests.core.derivatives import check_curvature, check_jacobian
 from tests.core.meshes import PLANAR, arc, cut_along, rotated
 
 LINES = {"planar": PLANAR, "curved": arc(100.0)}
+ANGLES = np.random.default_rng(11).uniform(0, np.pi, 10_000)
+DIRECTIONS = np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
 CUTS = {name: cut_along(line) for name, line in LINES.items()}
 
 
@@ -23,6 +26,8 @@ def terms_on(name, weight=1.5):
         "edge length": EdgeLength(mesh.vertices, mesh.edges, weight),
         "stitch": Stitch(sides[:, ::2, 0].T, count, weight),
         "level": Level(np.arange(5, 15), 120.0, count, weight),
+        "bed stretch": BedStretch(mesh, DIRECTIONS[: len(mesh.triangles)], weight),
+        "area change": AreaChange(mesh, weight),
         "area barrier": AreaBarrier(mesh),
         "contact, right": right,
         "contact, left": left,
@@ -30,7 +35,16 @@ def terms_on(name, weight=1.5):
 
 
 NAMES = list(terms_on("planar"))
-SHAPES = ["mean value", "contour", "edge length", "area barrier", "contact, right", "contact, left"]
+SHAPES = [
+    "mean value",
+    "contour",
+    "edge length",
+    "bed stretch",
+    "area change",
+    "area barrier",
+    "contact, right",
+    "contact, left",
+]
 
 
 def on_both_lines(names):
@@ -40,7 +54,7 @@ def on_both_lines(names):
 
 
 EVERY_TERM, SHAPE_TERMS = on_both_lines(NAMES), on_both_lines(SHAPES)
-PAPERS_TERMS = on_both_lines([name for name in NAMES if name != "area barrier"])
+PAPERS_TERMS = on_both_lines([name for name in NAMES if name not in ("bed stretch", "area change", "area barrier")])
 
 
 def case(line, name, weight=1.5):
@@ -141,6 +155,15 @@ def test_the_barrier_is_without_bound_when_squeezed():
     energies = [energy(barrier, rest * [share, 1]) for share in (0.39, 0.2, 1e-2, 1e-4, 1e-6)]
     assert (np.diff(energies) > 0).all()
     assert energies[-1] == pytest.approx(barrier.mesh.areas.sum() * 1e12, rel=1e-4)
+
+
+def test_shear_along_the_beds_costs_nothing():
+    mesh = CUTS["planar"][0].mesh
+    sheared = mesh.vertices + np.outer(mesh.vertices[:, 1], [0.7, 0.0])
+    level, upright = (np.tile(direction, (len(mesh.triangles), 1)) for direction in ([1.0, 0.0], [0.0, 1.0]))
+    np.testing.assert_allclose(BedStretch(mesh, level).residual(sheared), 0, atol=1e-9)
+    np.testing.assert_allclose(AreaChange(mesh).residual(sheared), 0, atol=1e-9)
+    assert energy(BedStretch(mesh, upright), sheared) == pytest.approx((np.hypot(1, 0.7) - 1) ** 2 * mesh.areas.sum())
 
 
 def test_level_sees_z_only():

@@ -114,3 +114,16 @@ def test_the_datum_is_where_the_horizon_comes_to_lie():
         restored = sw.Restoration(case.section).flatten(horizon, datum=datum)
         (line,) = restored.carried(horizon)
         assert np.abs(line[:, 1] - datum).max() < 0.3 * case.section.dz
+
+
+@pytest.mark.parametrize("dip", [30.0, 45.0])
+def test_beds_that_slip_past_each_other_all_become_level(dip):
+    """A parallel fold flattened on its middle bed: without slip between beds the others keep a tenth of its height."""
+    case = sw.synthetic.flexural_fold(dip=dip)
+    picks = case.interpretation
+    plan = sw.Plan((sw.Step("flatten", "H2"),), weights=sw.Weights(bedding=10.0))
+    restored = plan.restore(case.section, picks)
+    assert restored.settled
+    for horizon in picks.horizons:
+        height, relief = (np.ptp(line[:, 1]) for line in (horizon.pieces[0], restored.carried(horizon)[0]))
+        assert relief < 0.02 * height

@@ -36,7 +36,7 @@ def test_every_weight_has_one_slider_at_its_place(sliders):
 
 def test_symbols_are_those_of_the_papers_equations_19_and_22():
     symbols = {term.field: term.symbol for terms in GROUPS.values() for term in terms}
-    assert [symbols[name] for name in NAMES] == ["α", "β", "γ", "ζ", "λ", "ζ", "λ", ""]
+    assert [symbols[name] for name in NAMES] == ["α", "β", "γ", "ζ", "λ", "ζ", "λ", "", ""]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -47,10 +47,10 @@ def test_a_slider_changes_its_weight_once_and_no_other(sliders, told, name):
 
 
 def test_weights_set_from_code_move_the_sliders_with_one_notification(sliders, told):
-    weights = sw.Weights(0.5, 2, 3, 4, 5, 6, 700, 8)
+    weights = sw.Weights(0.5, 2, 3, 4, 5, 6, 700, 8, 9)
     sliders.weights = weights
     assert told == [weights]
-    assert [sliders.sliders[name].value for name in NAMES] == [0.5, 2, 3, 4, 5, 6, 700, 8]
+    assert [sliders.sliders[name].value for name in NAMES] == [0.5, 2, 3, 4, 5, 6, 700, 8, 9]
     assert sliders.readouts["length"].value == "700"
 
 

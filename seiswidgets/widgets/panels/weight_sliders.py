@@ -39,6 +39,9 @@ GROUPS = {
     "Flattening": (
         Term("flatten", "ζ", "flatten", "How strongly the horizon is brought to its datum."),
         Term("length", "λ", "length", "How strongly the horizon keeps its length while it is flattened."),
+        Term(
+            "bedding", "", "bedding", "How freely beds slip past each other, as in flexural-slip folds; 0 in the paper."
+        ),
     ),
 }
 
