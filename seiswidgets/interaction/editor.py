@@ -98,6 +98,11 @@ class PickEditor:
             case Release():
                 return self._handle_release(gesture)
 
+    def change(self, transition: Callable[[EditorState], EditorState]) -> None:
+        """Change to another state as one edit."""
+        self.settle()
+        self._become(transition(self.state))
+
     def click_hint(self, pointer: Move) -> str:
         """Describe the effect of a click at the pointer."""
         return click_hint(self.state, pointer, self._tools)

@@ -19,7 +19,8 @@ class PointerMessage:
     kind : str
         "size" (each view sends it when it appears, with ``fresh``, and when its size changes), "press", "drag",
         "release", "hover", "leave", "double", "wheel", "pinch", "rest" (a moment after the last wheel step or drag),
-        "key", or "finding" (a click on a flag, ``key`` being its index among the flags).
+        "key", "menu" (a right click, a long press or the menu key), "choose" (an item of that menu, ``key`` being its
+        index), or "finding" (a click on a flag, ``key`` being its index among the flags).
     x, y : float
         Position in css pixels of the plot area, as the kernel knows its size; for a pinch, midway between the fingers.
     modifiers : frozenset of {"ctrl", "meta", "shift", "alt"}
@@ -101,6 +102,13 @@ def _gesture(message: PointerMessage, projection: PaneProjection) -> Gesture | N
         case "double":
             return DoubleClick(point, pixel, projection, modifiers, reach)
     return None
+
+
+def press_at(message: PointerMessage, projection: PaneProjection) -> Press:
+    """Press of the main button at the position of a message."""
+    pixel = message.pixel
+    reach = REACH * TOUCH_FACTOR if message.touch else REACH
+    return Press(projection.to_original(projection.view.to_section(pixel)), pixel, projection, reach=reach)
 
 
 def axes_state(view: Viewport, left: float, note: str = "") -> dict[str, Any]:

@@ -13,11 +13,12 @@ from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.click_hints import HELP
+from seiswidgets.interaction.context_menu import menu_items
 from seiswidgets.interaction.document import Document, Entry
 from seiswidgets.interaction.drawing import Drawing, Point
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES
-from seiswidgets.interaction.gestures import Gesture, Move
+from seiswidgets.interaction.gestures import Gesture, Move, Press
 from seiswidgets.interaction.scene import marks, rubber_band, strokes
 from seiswidgets.interaction.snapping import EVENTS, follow_event, snap_to_event
 from seiswidgets.widgets.binding import bind, bind_control
@@ -156,6 +157,7 @@ class Picker(WithParts, VBox):
         pane.take_keys(KEYS)
         pane.on_gesture(lambda gesture: self.comm is not None and self._handle(gesture))
         pane.on_flag(partial(self._open_flag, pane))
+        pane.offer_menu(self._menu)
         self.refresh()
 
     def show_findings(self, findings: Iterable[Finding]) -> None:
@@ -257,6 +259,16 @@ class Picker(WithParts, VBox):
         elif isinstance(gesture, Move):
             self.click_line.update()
         return consumed
+
+    def _menu(self, event: Press) -> list[tuple[str, Callable[[], object]]]:
+        """Items of the context menu; each refreshes what is shown."""
+
+        def act(action: Callable[[], object]) -> None:
+            action()
+            self.refresh()
+
+        items = [(label, partial(act, action)) for label, action in menu_items(self.editor, event)]
+        return [*items, ("All gestures and keys", self.help.toggle)]
 
     def _click_hint(self) -> str:
         return self.editor.click_hint(self._hover) if self._hover else f"{MODE_LABELS[self.mode][1]}. {HELP}."

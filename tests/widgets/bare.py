@@ -37,6 +37,7 @@ PAGE = """async ([script, style, traits, size, corner]) => {
     on: (names, act) => names.split(" ").forEach((name) => (handlers[name] ??= []).push(act)),
     off() {},
     answer: (to) => handlers["msg:custom"].forEach((act) => act({ kind: "answer", to })),
+    receive: (message) => handlers["msg:custom"].forEach((act) => act(message)),
   };
   window.take = (traits) => Object.entries(decode(traits)).forEach(([name, value]) => model.set(name, value));
   window.frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));

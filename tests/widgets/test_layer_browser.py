@@ -9,6 +9,7 @@ from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.point_location import TOLERANCE
 from seiswidgets.interaction.overlay import Mark, Stroke, map_state, mesh_state
+from tests.widgets.bare import CORNER
 
 IMG = "<img src=x onerror=alert(1)>"
 ROWS, COLUMNS = 9, 13
@@ -288,3 +289,19 @@ def test_a_findings_flag_is_clicked_by_mouse_and_keyboard_and_is_no_press(bare_l
     button.press("Enter")
     assert [message["key"] for message in layer.sent("finding")] == ["0", "0"]
     assert layer.sent("press", "key") == []
+
+
+def test_the_menu_opens_by_mouse_and_key_and_is_worked_by_keyboard(bare_layer):
+    layer = bare_layer()
+    layer.page.mouse.click(CORNER[0] + 50, CORNER[1] + 60, button="right")
+    (asked,) = layer.sent("menu")
+    assert (asked["x"], asked["y"]) == (50, 60)
+    layer.page.evaluate("(menu) => model.receive(menu)", {"kind": "menu", "labels": ["One", "Two"], "x": 50, "y": 60})
+    items = layer.page.get_by_role("menuitem")
+    assert items.all_inner_texts() == ["One", "Two"]
+    layer.page.keyboard.press("ArrowDown")
+    layer.page.keyboard.press("Enter")
+    assert [message["key"] for message in layer.sent("choose")] == ["1"]
+    assert items.count() == 0
+    layer.page.keyboard.press("Shift+F10")
+    assert len(layer.sent("menu")) == 2

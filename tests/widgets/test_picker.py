@@ -224,3 +224,19 @@ def test_help_is_opened_by_its_key_and_its_button_and_closed_again(drawn):
     assert not drawn.help.is_open
     drawn.buttons["help"].click()
     assert drawn.help.is_open
+
+
+def test_a_right_click_offers_what_can_be_done_there_and_the_choice_is_done(drawn, monkeypatch):
+    told = []
+    monkeypatch.setattr(drawn.pane.layer, "send", told.append)
+    x, y = drawn.pane.view.to_pixels(FAULT[0]).tolist()
+    tell(drawn.pane, "menu", x=x, y=y)
+    (menu,) = told
+    assert (menu["kind"], menu["x"], menu["y"]) == ("menu", x, y)
+    tell(drawn.pane, "choose", key=str(menu["labels"].index("Delete F1")))
+    assert drawn.drawing.names("fault") == ()
+    tell(drawn.pane, "choose", key="0")  # of a menu that is gone
+    assert drawn.drawing.names("fault") == ()
+    tell(drawn.pane, "menu", x=x, y=y)
+    tell(drawn.pane, "choose", key=str(told[-1]["labels"].index("All gestures and keys")))
+    assert drawn.help.is_open

@@ -3,6 +3,7 @@
 
 import { GestureRecogniser } from "./pointer_layer/gestures.js";
 import { Keyboard } from "./pointer_layer/keyboard.js";
+import { openMenu } from "./pointer_layer/menu.js";
 import { createThrottles } from "./pointer_layer/throttle.js";
 import { LayerView, PARTS_BY_TRAIT } from "./pointer_layer/view.js";
 import { keepKeys } from "./shared/keep_keys.js";
@@ -20,9 +21,18 @@ import { keepTraitsLocal } from "./shared/local_traits.js";
  * @returns {() => void} stops it
  */
 function observe(model, view, throttles) {
-  /** @param {{ kind: string, to: keyof typeof throttles, took: number }} message */
-  const receive = ({ kind, to, took }) => {
-    if (kind === "show") requestAnimationFrame(() => view.el.scrollIntoView({ block: "nearest" }));
+  /**
+   * @typedef {{ kind: string, to: keyof typeof throttles, took: number, labels: string[], x: number, y: number }} Message
+   *
+   * @param {Message} message
+   */
+  const receive = ({ kind, to, took, labels, x, y }) => {
+    if (kind === "menu") {
+      const { x: across, y: down } = view.plotArea.kernelScale;
+      openMenu(view.el, labels, { x: x / across, y: y / down }, (index) =>
+        model.send({ kind: "choose", key: String(index) }),
+      );
+    } else if (kind === "show") requestAnimationFrame(() => view.el.scrollIntoView({ block: "nearest" }));
     else if (kind === "answer") throttles[to]?.answer(took);
   };
   /** @type {[string, (...args: any[]) => void][]} */

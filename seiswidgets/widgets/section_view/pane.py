@@ -14,8 +14,8 @@ from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.colour import Colouring, clip_limit
 from seiswidgets.interaction.drawing import Point
-from seiswidgets.interaction.gestures import Gesture
-from seiswidgets.interaction.messages import GestureReader, PointerMessage, axes_state
+from seiswidgets.interaction.gestures import Gesture, Press
+from seiswidgets.interaction.messages import GestureReader, PointerMessage, axes_state, press_at
 from seiswidgets.interaction.navigation import KEYS, Navigation
 from seiswidgets.interaction.overlay import Mark, Overlay, Stroke, map_state, mesh_state
 from seiswidgets.interaction.projection import PaneProjection
@@ -36,6 +36,8 @@ PASSIVE = ("hover", "leave", "rest", "size")  # kinds of messages that are no ac
 
 Mesh = tuple[np.ndarray, np.ndarray]  # vertices and triangles
 GestureListener = Callable[[Gesture], bool]
+MenuItem = tuple[str, Callable[[], object]]
+MenuMaker = Callable[[Press], list[MenuItem]]
 HoverListener = Callable[[Point | None], None]
 
 
@@ -132,6 +134,8 @@ class SectionPane(WithParts, VBox):
         self._gesture_listeners: list[GestureListener] = []
         self._hover_listeners: list[HoverListener] = []
         self._flag_listeners: list[Callable[[int], None]] = []
+        self._make_menu: MenuMaker = lambda event: []
+        self._menu: list[MenuItem] = []  # that is open
         self._pointer: Point | None = None  # in css pixels of the plot area; None while it is elsewhere
         self.projection = self.line_projection = lambda: PaneProjection(self.view)
         self._painter = Painter(section, _plot_area())
@@ -192,6 +196,10 @@ class SectionPane(WithParts, VBox):
     def on_hover(self, callback: HoverListener) -> None:
         """Call a function with the point (x, z) under the pointer, a few times a second; None when it leaves."""
         self._hover_listeners.append(callback)
+
+    def offer_menu(self, make: MenuMaker) -> None:
+        """Show the items that a function makes for a point, a right click or a long press, besides the pane's own."""
+        self._make_menu = make
 
     def on_flag(self, callback: Callable[[int], None]) -> None:
         """Call a function with the index, among the flags drawn, of a finding's flag that is clicked."""
@@ -288,6 +296,14 @@ class SectionPane(WithParts, VBox):
     def _act(self, message: PointerMessage) -> None:
         if message.kind == "size":
             self._resize(message)
+        elif message.kind == "menu":
+            self._menu = [*self._make_menu(press_at(message, self.projection())), ("Fit the section", self.fit)]
+            labels = [label for label, _ in self._menu]
+            self.layer.send({"kind": "menu", "labels": labels, "x": message.x, "y": message.y})
+        elif message.kind == "choose":
+            chosen, self._menu = self._menu[int(message.key) :][:1], []
+            for _, act in chosen:
+                act()
         elif message.kind == "finding":
             for listen in self._flag_listeners:
                 listen(int(message.key))

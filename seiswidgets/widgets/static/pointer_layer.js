@@ -45,6 +45,11 @@ var Keyboard = class {
   press(event) {
     this.plot.classList.remove("by-pointer");
     const withCtrl = event.ctrlKey || event.metaKey;
+    if (event.key === "ContextMenu" || event.key === "F10" && event.shiftKey) {
+      event.preventDefault();
+      this.send("menu", event);
+      return;
+    }
     const isSpace = event.key === " " && !withCtrl;
     if (!isSpace && !this.isHotkey((withCtrl ? "Ctrl+" : "") + event.key)) return;
     event.preventDefault();
@@ -69,6 +74,7 @@ var LINE_HEIGHT = 16;
 var MIDDLE_BUTTON = 1;
 var TAP = { time: 300, distance: 12 };
 var DOUBLE_TAP = { time: 400, distance: 30 };
+var LONG_PRESS = 700;
 var ECHO = 800;
 var distance = (one, other) => Math.hypot(one.x - other.x, one.y - other.y);
 var GestureRecogniser = class {
@@ -99,7 +105,7 @@ var GestureRecogniser = class {
     listen("pointerleave", (event) => this.leave(event));
     listen("dblclick", (event) => this.doubleClick(event));
     listen("wheel", (event) => this.scroll(event));
-    listen("contextmenu", (event) => event.preventDefault());
+    listen("contextmenu", (event) => this.openMenu(event));
   }
   /** @param {PointerEvent} event */
   press(event) {
@@ -124,6 +130,25 @@ var GestureRecogniser = class {
     this.actions.movePointer(position);
     this.throttles.hover.drop();
     this.actions.send("press", event, buttonOf(this.held));
+    if (event.pointerType === "touch") this.awaitLongPress(event, this.held);
+  }
+  /**
+   * Ask for the menu in place of the browser's and JupyterLab's; what a long press has done is revoked.
+   *
+   * @param {MouseEvent} event
+   */
+  openMenu(event) {
+    event.preventDefault();
+    event.stopPropagation();
+    if (this.held) this.release(
+      this.held,
+      /** @type {PointerEvent} */
+      event,
+      true,
+      this.held.position
+    );
+    this.fingers.clear();
+    this.actions.send("menu", event);
   }
   /** @param {PointerEvent} event */
   move(event) {
@@ -145,6 +170,17 @@ var GestureRecogniser = class {
   report(kind, event, position, more) {
     this.actions.movePointer(position);
     this.throttles[kind].add({ ...this.plotArea.toKernel(position), modifiers: modifiers(event), ...more });
+  }
+  /**
+   * Open the menu under a finger that rests: not every browser reports that by itself.
+   *
+   * @param {PointerEvent} event
+   * @param {HeldPointer} held
+   */
+  awaitLongPress(event, held) {
+    setTimeout(() => {
+      if (this.held === held && distance(held.position, held.start) < TAP.distance) this.openMenu(event);
+    }, LONG_PRESS);
   }
   /** @param {PointerEvent} event */
   lift(event) {
@@ -239,6 +275,56 @@ var GestureRecogniser = class {
 };
 function buttonOf({ button, pan }) {
   return pan ? { button, pan } : { button };
+}
+
+// pointer_layer/menu.js
+function openMenu(el, labels, position, choose) {
+  el.querySelector(":scope > .menu")?.remove();
+  const menu = document.createElement("div");
+  let isClosed = false;
+  menu.className = "menu";
+  menu.setAttribute("role", "menu");
+  const items = labels.map((label, index) => {
+    const item = document.createElement("button");
+    item.setAttribute("role", "menuitem");
+    item.textContent = label;
+    item.addEventListener("click", () => {
+      close();
+      choose(index);
+    });
+    menu.append(item);
+    return item;
+  });
+  function close(isKept = true) {
+    if (isClosed) return;
+    isClosed = true;
+    menu.remove();
+    if (isKept) el.querySelector(".plot")?.focus({ preventScroll: true });
+  }
+  menu.addEventListener("keydown", (event) => {
+    const index = items.indexOf(
+      /** @type {HTMLButtonElement} */
+      document.activeElement
+    );
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (event.key === "Escape") close();
+    else if (step) items[(index + step + items.length) % items.length].focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  menu.addEventListener("focusout", ({ relatedTarget }) => {
+    if (!menu.contains(
+      /** @type {Node | null} */
+      relatedTarget
+    )) close(false);
+  });
+  menu.addEventListener("contextmenu", (event) => event.preventDefault());
+  el.append(menu);
+  const { width, height } = el.getBoundingClientRect();
+  menu.style.left = `${Math.max(0, Math.min(position.x, width - menu.offsetWidth))}px`;
+  menu.style.top = `${Math.max(0, Math.min(position.y, height - menu.offsetHeight))}px`;
+  items[0]?.focus({ preventScroll: true });
 }
 
 // pointer_layer/throttle.js
@@ -1203,9 +1289,10 @@ var DRAW = {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });
     append(group, "circle", "eye", { cy: -14, r: 2.5 });
   },
-  finding(group, mark) {
-    append(group, "path", "mast", { d: `M0,0V${-FLAG}`, stroke: mark.colour });
-    const flag = append(group, "g", "flag", { transform: `translate(-8 ${-FLAG - 14})` });
+  finding(group, mark, y) {
+    const isUp = y > FLAG + 18;
+    append(group, "path", "mast", { d: `M0,0V${isUp ? -FLAG : FLAG}`, stroke: mark.colour });
+    const flag = append(group, "g", "flag", { transform: `translate(-8 ${isUp ? -FLAG - 14 : FLAG - 2})` });
     append(flag, "circle", "ground", { cx: 8, cy: 8, r: 10 });
     append(flag, "path", "icon", { d: mark.path, stroke: mark.colour });
   },
@@ -1236,7 +1323,7 @@ function drawMarks(group, marks, plotArea, open) {
   for (const mark of marks) {
     const { x, y } = plotArea.toPixels(mark.x, mark.z);
     const element = append(group, "g", `mark ${mark.kind}`, { transform: `translate(${x} ${y})` });
-    DRAW[mark.kind](element, mark);
+    DRAW[mark.kind](element, mark, y);
     if (mark.kind !== "finding") continue;
     const index = flags++;
     makeButton(element, mark.text, () => open(index));
@@ -1562,7 +1649,8 @@ var LayerView = class {
    * @type {import("./keyboard.js").Send}
    */
   send(kind, event, more = {}) {
-    const position = "clientX" in event ? this.plotArea.pointerPosition(event) : this.pointer;
+    const middle = kind === "menu" ? { x: this.plotArea.width / 2, y: this.plotArea.height / 2 } : null;
+    const position = "clientX" in event ? this.plotArea.pointerPosition(event) : this.pointer ?? middle;
     const touch = "pointerType" in event && event.pointerType === "touch";
     const kernelPosition = position ? this.plotArea.toKernel(position) : {};
     this.model.send({ kind, ...kernelPosition, modifiers: modifiers(event), touch, ...more });
@@ -1626,8 +1714,16 @@ function keepTraitsLocal(model, names) {
 
 // pointer_layer.js
 function observe(model, view, throttles) {
-  const receive = ({ kind, to, took }) => {
-    if (kind === "show") requestAnimationFrame(() => view.el.scrollIntoView({ block: "nearest" }));
+  const receive = ({ kind, to, took, labels, x, y }) => {
+    if (kind === "menu") {
+      const { x: across, y: down } = view.plotArea.kernelScale;
+      openMenu(
+        view.el,
+        labels,
+        { x: x / across, y: y / down },
+        (index) => model.send({ kind: "choose", key: String(index) })
+      );
+    } else if (kind === "show") requestAnimationFrame(() => view.el.scrollIntoView({ block: "nearest" }));
     else if (kind === "answer") throttles[to]?.answer(took);
   };
   const handlers = [

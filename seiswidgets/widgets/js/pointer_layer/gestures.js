@@ -8,6 +8,7 @@ const LINE_HEIGHT = 16; // css pixels, for wheels that count lines
 const MIDDLE_BUTTON = 1;
 const TAP = { time: 300, distance: 12 }; // ms and css pixels within which a finger comes and goes
 const DOUBLE_TAP = { time: 400, distance: 30 }; // between two taps
+const LONG_PRESS = 700; // ms, longer than that of browsers
 const ECHO = 800; // ms after a double tap in which the browser may report the same one as a double click
 
 /** @typedef {import("./types.js").Pixel} Pixel */
@@ -71,7 +72,7 @@ export class GestureRecogniser {
     listen("pointerleave", (event) => this.leave(event));
     listen("dblclick", (event) => this.doubleClick(event));
     listen("wheel", (event) => this.scroll(event));
-    listen("contextmenu", (event) => event.preventDefault());
+    listen("contextmenu", (event) => this.openMenu(event));
   }
 
   /** @param {PointerEvent} event */
@@ -98,6 +99,20 @@ export class GestureRecogniser {
     this.actions.movePointer(position);
     this.throttles.hover.drop();
     this.actions.send("press", event, buttonOf(this.held));
+    if (event.pointerType === "touch") this.awaitLongPress(event, this.held);
+  }
+
+  /**
+   * Ask for the menu in place of the browser's and JupyterLab's; what a long press has done is revoked.
+   *
+   * @param {MouseEvent} event
+   */
+  openMenu(event) {
+    event.preventDefault();
+    event.stopPropagation();
+    if (this.held) this.release(this.held, /** @type {PointerEvent} */ (event), true, this.held.position);
+    this.fingers.clear();
+    this.actions.send("menu", event);
   }
 
   /** @param {PointerEvent} event */
@@ -121,6 +136,18 @@ export class GestureRecogniser {
   report(kind, event, position, more) {
     this.actions.movePointer(position);
     this.throttles[kind].add({ ...this.plotArea.toKernel(position), modifiers: modifiers(event), ...more });
+  }
+
+  /**
+   * Open the menu under a finger that rests: not every browser reports that by itself.
+   *
+   * @param {PointerEvent} event
+   * @param {HeldPointer} held
+   */
+  awaitLongPress(event, held) {
+    setTimeout(() => {
+      if (this.held === held && distance(held.position, held.start) < TAP.distance) this.openMenu(event);
+    }, LONG_PRESS);
   }
 
   /** @param {PointerEvent} event */

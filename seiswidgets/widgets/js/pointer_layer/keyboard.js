@@ -63,6 +63,11 @@ export class Keyboard {
   press(event) {
     this.plot.classList.remove("by-pointer");
     const withCtrl = event.ctrlKey || event.metaKey;
+    if (event.key === "ContextMenu" || (event.key === "F10" && event.shiftKey)) {
+      event.preventDefault();
+      this.send("menu", event);
+      return;
+    }
     const isSpace = event.key === " " && !withCtrl;
     if (!isSpace && !this.isHotkey((withCtrl ? "Ctrl+" : "") + event.key)) return; // so that Tab leaves the pane
     event.preventDefault();

@@ -9,7 +9,7 @@ const CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 
 /** @typedef {import("./types.js").Mark} Mark */
 
-/** @type {Record<Mark["kind"], (group: SVGGElement, mark: Mark) => void>} */
+/** @type {Record<Mark["kind"], (group: SVGGElement, mark: Mark, y: number) => void>} */
 const DRAW = {
   cutoff(group, mark) {
     const disc = append(group, "circle", "disc", { r: 8, fill: mark.colour });
@@ -19,9 +19,10 @@ const DRAW = {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });
     append(group, "circle", "eye", { cy: -14, r: 2.5 });
   },
-  finding(group, mark) {
-    append(group, "path", "mast", { d: `M0,0V${-FLAG}`, stroke: mark.colour });
-    const flag = append(group, "g", "flag", { transform: `translate(-8 ${-FLAG - 14})` });
+  finding(group, mark, y) {
+    const isUp = y > FLAG + 18; // else it would not be seen
+    append(group, "path", "mast", { d: `M0,0V${isUp ? -FLAG : FLAG}`, stroke: mark.colour });
+    const flag = append(group, "g", "flag", { transform: `translate(-8 ${isUp ? -FLAG - 14 : FLAG - 2})` });
     append(flag, "circle", "ground", { cx: 8, cy: 8, r: 10 });
     append(flag, "path", "icon", { d: mark.path, stroke: mark.colour });
   },
@@ -67,7 +68,7 @@ export function drawMarks(group, marks, plotArea, open) {
   for (const mark of marks) {
     const { x, y } = plotArea.toPixels(mark.x, mark.z);
     const element = append(group, "g", `mark ${mark.kind}`, { transform: `translate(${x} ${y})` });
-    DRAW[mark.kind](element, mark);
+    DRAW[mark.kind](element, mark, y);
     if (mark.kind !== "finding") continue;
     const index = flags++;
     makeButton(element, mark.text, () => open(index));

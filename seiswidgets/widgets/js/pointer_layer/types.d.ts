@@ -58,4 +58,14 @@ export type Traits = {
 
 export type Model = AnyModel<Traits>;
 
-export type MessageKind = "press" | "drag" | "release" | "hover" | "leave" | "double" | "wheel" | "pinch" | "key";
+export type MessageKind =
+  | "press"
+  | "drag"
+  | "release"
+  | "hover"
+  | "leave"
+  | "double"
+  | "wheel"
+  | "pinch"
+  | "key"
+  | "menu";

@@ -167,7 +167,8 @@ export class LayerView {
    * @type {import("./keyboard.js").Send}
    */
   send(kind, event, more = {}) {
-    const position = "clientX" in event ? this.plotArea.pointerPosition(event) : this.pointer;
+    const middle = kind === "menu" ? { x: this.plotArea.width / 2, y: this.plotArea.height / 2 } : null;
+    const position = "clientX" in event ? this.plotArea.pointerPosition(event) : (this.pointer ?? middle);
     const touch = "pointerType" in event && event.pointerType === "touch";
     const kernelPosition = position ? this.plotArea.toKernel(position) : {};
     this.model.send({ kind, ...kernelPosition, modifiers: modifiers(event), touch, ...more });

@@ -1,0 +1,92 @@
+"""The menu at a point of a pane: everything that can be done there, without a mode or a key."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from seiswidgets.geology.picks import CARRY, CONSTRAIN, FAULT, HORIZON
+from seiswidgets.interaction.drawing import Pick, PickSelection, Point
+from seiswidgets.interaction.editor import PickEditor
+from seiswidgets.interaction.editor_state import EditorState
+from seiswidgets.interaction.gestures import Press, line_under, vertex_under
+
+Item = tuple[str, Callable[[], object]]
+
+
+def menu_items(editor: PickEditor, event: Press) -> list[Item]:
+    """Labels and actions for a point: of the line that is being drawn, else of the pick there, else of the rock."""
+    editor.settle()
+    state = editor.state
+    rock = [] if not np.isfinite(event.point).all() else _rock_items(editor, event.point)
+    if state.drawing.draft:
+        items = [("Finish the line", editor.finish), *_last_vertex_item(editor)]
+    else:
+        hit = _pick_under(state, event)
+        items = rock if hit is None else _pick_items(editor, event, *hit)
+    entry = editor.history.next_undo
+    return [*items, *([(f"Undo: {entry.label}", editor.undo)] if entry else [])]
+
+
+def _last_vertex_item(editor: PickEditor) -> list[Item]:
+    end = editor.drawing.draft_end
+    drop = ("Drop the line", lambda: editor.change(lambda state: state.cancel()))
+    if end is None:
+        return [drop]
+    return [("Remove its last vertex", lambda: editor.change(lambda state: state.remove_vertex(end))), drop]
+
+
+def _pick_items(editor: PickEditor, event: Press, pick: Pick, target: PickSelection, point: Point) -> list[Item]:
+    """Actions on the pick, the piece and the vertex at a point."""
+    kind, name = pick.kind, pick.name
+    vertex = vertex_under(event, pick.pieces[target.piece or 0], event.projection.to_pixels)
+    items: list[Item] = [(f"Select {name}", partial(editor.select, kind, name))]
+    if vertex:
+        hit = replace(target, vertex=vertex[0])
+        items.append(("Remove this vertex", lambda: editor.change(lambda state: state.remove_vertex(hit))))
+    else:
+        inserted = editor.drawing.with_vertex_inserted(target, point)
+        items.append(("Insert a vertex here", lambda: editor.change(lambda state: state.draw(inserted, target))))
+    if kind == HORIZON and len(pick.pieces) > 1:
+        rest = editor.drawing.with_line(replace(target, vertex=None), [])
+        items.append(("Delete this piece", lambda: editor.change(lambda state: state.draw(rest))))
+    use = (f"Only carry {name}", CARRY) if pick.use == CONSTRAIN else (f"Let {name} constrain", CONSTRAIN)
+    items.append((use[0], partial(editor.use, kind, name, use[1])))
+    return [
+        *items,
+        (f"Hide {name}", partial(editor.show, kind, name, False)),
+        (f"Delete {name}", partial(editor.delete, kind, name)),
+    ]
+
+
+def _rock_items(editor: PickEditor, point: Point) -> list[Item]:
+    """Actions where there is no pick."""
+
+    def begin(kind: str) -> None:
+        editor.enter(kind)
+        editor.deselect()
+        editor.add(point)
+
+    held = editor.state.fixed
+    hold = ("Release the held block", partial(editor.hold, None))
+    pin = ("Pin this point", lambda: editor.change(lambda state: state.toggle_pin(point)))
+    return [
+        ("Begin a fault here", partial(begin, FAULT)),
+        ("Begin a horizon here", partial(begin, HORIZON)),
+        ("Hold this block", partial(editor.hold, point)),
+        *([hold] if held else []),
+        pin,
+    ]
+
+
+def _pick_under(state: EditorState, event: Press) -> tuple[Pick, PickSelection, Point] | None:
+    """Nearest visible pick under a press, its piece with the vertex that follows, and the point on it."""
+    hits = [
+        (hit[2], pick, PickSelection(pick.kind, pick.name, piece, hit[0]), hit[1])
+        for pick in state.drawing.picks
+        if pick.visible
+        for piece, points in enumerate(pick.pieces)
+        if (hit := line_under(event, points, event.projection.to_pixels))
+    ]
+    return min(hits, key=lambda hit: hit[0])[1:] if hits else None

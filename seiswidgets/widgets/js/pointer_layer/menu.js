@@ -1,0 +1,53 @@
+// The context menu of a pane: a list of actions at a point, worked by mouse, finger and keyboard.
+
+/**
+ * Show a menu in place of the one that is open; it closes after a choice, on Escape, and when the focus leaves it.
+ *
+ * @param {HTMLElement} el the layer
+ * @param {string[]} labels
+ * @param {import("./types.js").Pixel} position
+ * @param {(index: number) => void} choose
+ */
+export function openMenu(el, labels, position, choose) {
+  el.querySelector(":scope > .menu")?.remove();
+  const menu = document.createElement("div");
+  let isClosed = false;
+  menu.className = "menu";
+  menu.setAttribute("role", "menu");
+  const items = labels.map((label, index) => {
+    const item = document.createElement("button");
+    item.setAttribute("role", "menuitem");
+    item.textContent = label;
+    item.addEventListener("click", () => {
+      close();
+      choose(index);
+    });
+    menu.append(item);
+    return item;
+  });
+  /** @param {boolean} [isKept] whether the focus goes back to the pane */
+  function close(isKept = true) {
+    if (isClosed) return; // its removal takes the focus out of it
+    isClosed = true;
+    menu.remove();
+    if (isKept) /** @type {SVGElement | null} */ (el.querySelector(".plot"))?.focus({ preventScroll: true });
+  }
+  menu.addEventListener("keydown", (event) => {
+    const index = items.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (event.key === "Escape") close();
+    else if (step) items[(index + step + items.length) % items.length].focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  menu.addEventListener("focusout", ({ relatedTarget }) => {
+    if (!menu.contains(/** @type {Node | null} */ (relatedTarget))) close(false);
+  });
+  menu.addEventListener("contextmenu", (event) => event.preventDefault());
+  el.append(menu);
+  const { width, height } = el.getBoundingClientRect();
+  menu.style.left = `${Math.max(0, Math.min(position.x, width - menu.offsetWidth))}px`;
+  menu.style.top = `${Math.max(0, Math.min(position.y, height - menu.offsetHeight))}px`;
+  items[0]?.focus({ preventScroll: true });
+}

@@ -1,0 +1,53 @@
+import pytest
+
+from seiswidgets.interaction.context_menu import menu_items
+from seiswidgets.interaction.gestures import Press
+from tests.interaction.test_editor import FAULT, LEFT, PLAIN, VIEW, drawn, pieces  # noqa: F401
+
+EMPTY = (700.0, 100.0)
+
+
+def menu(editor, point):
+    return dict(menu_items(editor, Press(point, tuple(VIEW.to_pixels(point)), PLAIN)))
+
+
+@pytest.mark.parametrize(
+    ("point", "label", "change"),
+    [
+        (FAULT[1], "Remove this vertex", lambda editor: len(pieces(editor)[0]) == 2),
+        ((425.0, 200.0), "Insert a vertex here", lambda editor: len(pieces(editor)[0]) == 4),
+        (FAULT[1], "Delete F1", lambda editor: not editor.interpretation.faults),
+        (FAULT[1], "Hide F1", lambda editor: not editor.drawing.pick("fault", "F1").visible),
+        (FAULT[1], "Only carry F1", lambda editor: editor.interpretation.faults[0].use == "carry"),
+        (LEFT[1], "Delete this piece", lambda editor: len(pieces(editor, "H1", "horizon")) == 1),
+        (LEFT[1], "Select H1", lambda editor: editor.state.selection.name == "H1"),
+        (EMPTY, "Begin a fault here", lambda editor: editor.drawing.draft.points == (EMPTY,)),
+        (EMPTY, "Begin a horizon here", lambda editor: editor.drawing.draft.name is None),
+        (EMPTY, "Hold this block", lambda editor: editor.state.fixed == EMPTY),
+        (EMPTY, "Release the held block", lambda editor: editor.state.fixed is None),
+        (EMPTY, "Pin this point", lambda editor: editor.state.pins == (EMPTY,)),
+    ],
+)
+def test_each_item_does_what_it_says_and_can_be_undone(drawn, point, label, change):  # noqa: F811
+    before, count = drawn.history.document, drawn.history.undo_count
+    menu(drawn, point)[label]()
+    assert change(drawn)
+    if drawn.history.document != before:
+        assert drawn.history.undo_count == count + 1
+        name = drawn.history.next_undo.label
+        menu(drawn, EMPTY)[f"Undo: {name}"]()
+        assert drawn.history.document == before
+
+
+def test_a_line_that_is_being_drawn_is_finished_or_dropped(drawn):  # noqa: F811
+    drawn.enter("fault")
+    drawn.add(EMPTY)
+    drawn.add((700.0, 300.0))
+    menu(drawn, FAULT[1])["Remove its last vertex"]()
+    assert drawn.drawing.draft.points == (EMPTY,)
+    drawn.add((700.0, 300.0))
+    menu(drawn, FAULT[1])["Finish the line"]()
+    assert drawn.drawing.names("fault") == ("F1", "F2")
+    drawn.add((800.0, 300.0))
+    menu(drawn, FAULT[1])["Drop the line"]()
+    assert drawn.drawing.draft is None
