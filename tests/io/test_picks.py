@@ -80,6 +80,17 @@ def test_uses_and_ends_come_back(tmp_path, name, use, ends):
         sw.read_picks(written(tmp_path, name, text), DEPTH)
 
 
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("kind", ["salt", "no data"])
+def test_bodies_come_back(tmp_path, name, kind):
+    bodies = (sw.Body([(100, 100), (300, 150), (200, 400)], kind, "B1"), sw.Body([(0, 1), (5, 1), (5, 9)], name="B2"))
+    sw.write_picks(sw.Interpretation(SIMPLE.faults, (), bodies), tmp_path / name, DEPTH)
+    again = sw.read_picks(tmp_path / name, DEPTH).bodies
+    assert [(body.name, body.kind, body.points.tolist()) for body in again] == [
+        (body.name, body.kind, body.points.tolist()) for body in bodies
+    ]
+
+
 def test_geojson_keeps_the_use_of_picks(tmp_path):
     carried = sw.Interpretation(SIMPLE.faults, [sw.Horizon(*SIMPLE.horizons[0].pieces, name="H1", use="carry")])
     sw.write_picks(carried, tmp_path / "a.geojson", DEPTH)
@@ -414,7 +425,7 @@ def feature(kind="fault", geometry="LineString", coordinates="[[0, 0], [1, 1]]",
         ("a.csv", HEADER + "fault,F,1,1,nan\n", "row 2: z must be a number .* 'nan'"),
         ("a.csv", HEADER + "fault,F,1,1,1e300\n", "row 2: z must be a number"),
         ("a.csv", HEADER + "fault,F,1,1\n", "row 2 must have 5 values like the first row, but has 4"),
-        ("a.csv", HEADER + "dyke,F,1,1,1\n", "row 2: kind must be 'fault' or 'horizon', but is 'dyke'"),
+        ("a.csv", HEADER + "dyke,F,1,1,1\n", "row 2: kind must be 'fault', 'horizon' or 'body', but is 'dyke'"),
         ("a.csv", HEADER + 'fault,"F,1,1,1\n', "row 2 is not CSV"),
         ("a.csv", HEADER + "fault,F,1,1,1\n", "row 2: fault 'F' needs at least two different points"),
         ("a.csv", HEADER + "fault,F,1,1,1\nfault,F,1,2,2\nfault,F,2,1,1\n", "row 4 is a second line of fault 'F'"),
@@ -440,7 +451,7 @@ def feature(kind="fault", geometry="LineString", coordinates="[[0, 0], [1, 1]]",
         ("a.json", feature(coordinates=f"[[0, 0], [1, {'9' * 4000}]]"), r"coordinates\[1\] must be a point"),
         ("a.json", feature(coordinates=f"[[0, 0], [1, {'9' * 5000}]]"), "is not valid JSON"),
         ("a.json", feature(coordinates='"no"'), "coordinates must be a list of points"),
-        ("a.json", feature(kind="dyke"), r"features\[0\].properties.kind must be 'fault' or 'horizon'"),
+        ("a.json", feature(kind="dyke"), r"features\[0\].properties.kind must be 'fault', 'horizon' or 'body'"),
         ("a.json", feature(geometry="Polygon"), r"geometry.type must be 'LineString' for a fault"),
         ("a.json", feature("horizon", "MultiLineString", "[]"), "must be a list of pieces"),
         ("a.json", feature(name="7"), "properties.name must be text, but is 7"),

@@ -6,22 +6,27 @@ from dataclasses import replace
 from pathlib import Path
 
 from seiswidgets.errors import DataError
+from seiswidgets.geology.bodies import BODY, Body
 from seiswidgets.geology.picks import AUTO, CONSTRAIN, FAULT, HORIZON, USES, Fault, Horizon, Interpretation
 from seiswidgets.io.document import Entry, json_text, read_json
-from seiswidgets.io.picks.lines import FileLines, PickLine, ends_text
+from seiswidgets.io.picks.lines import FileLines, PickLine, choices_of
 
 MARK = "seiswidgets_picks"  # a foreign member, as RFC 7946 allows
 VERSION = 1
-GEOMETRY = {FAULT: "LineString", HORIZON: "MultiLineString"}  # as written; a GIS may exchange them
+GEOMETRY = {
+    FAULT: "LineString",
+    HORIZON: "MultiLineString",
+    BODY: "Polygon",
+}  # as written
 
 
 def read(path: Path) -> FileLines:
     """Read a FeatureCollection whose member ``seiswidgets_picks`` holds version, x_unit and z_unit.
 
-    A fault is a LineString, a horizon a MultiLineString of its pieces; ``properties`` hold kind and name, and use and
-    ends where they are not the usual ones. Positions
-    are (x, z) on the section, not longitude and latitude. A GIS may have left out the member with the units, changed
-    one kind of lines to the other, or added a third coordinate of 0.
+    A fault is a LineString, a horizon a MultiLineString of its pieces, a body a Polygon; ``properties`` hold kind and
+    name, and use and ends where they are not the usual ones. Positions are (x, z) on the section, not longitude and
+    latitude. A GIS may have left out the member with the units, changed one kind of lines to the other, or added a
+    third coordinate of 0.
     """
     document = read_json(path)
     lines = tuple(line for feature in document["features"].items() for line in _pick_lines(feature))
@@ -51,8 +56,9 @@ def _pick_lines(feature: Entry) -> Iterator[PickLine]:
         return iter(())
     kind = properties["kind"].text()
     if kind not in GEOMETRY:
-        raise properties["kind"].error("'fault' or 'horizon'")
-    if (geometry_type := geometry["type"].text()) not in GEOMETRY.values():
+        raise properties["kind"].error("'fault', 'horizon' or 'body'")
+    geometry_type = geometry["type"].text()
+    if geometry_type not in GEOMETRY.values() or (geometry_type == GEOMETRY[BODY]) != (kind == BODY):
         raise geometry["type"].error(f"{GEOMETRY[kind]!r} for a {kind}")
     coordinates = geometry["coordinates"]
     name = properties["name"].text()
@@ -60,9 +66,16 @@ def _pick_lines(feature: Entry) -> Iterator[PickLine]:
     if not pieces:
         raise coordinates.error("a list of pieces")
     use, ends = (properties.optional(key, Entry.text, default) for key, default in (("use", CONSTRAIN), ("ends", AUTO)))
-    if use not in USES:
+    if use not in USES and kind != BODY:
         raise properties["use"].error(f"one of {', '.join(USES)}")
-    return (PickLine(kind, name, _flat(piece).points(), piece.location, use, ends) for piece in pieces)
+    lines = (PickLine(kind, name, _flat(piece).points(), piece.location, use, ends) for piece in pieces)
+    return map(_open, lines) if kind == BODY else lines
+
+
+def _open(ring: PickLine) -> PickLine:
+    """A ring of a Polygon without its last point, which repeats the first."""
+    points = ring.points
+    return replace(ring, points=points[:-1] if points[:1] == points[-1:] else points)
 
 
 def _flat(line: Entry) -> Entry:
@@ -81,13 +94,16 @@ def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
     horizons = [
         _feature(horizon, HORIZON, [piece.tolist() for piece in horizon.pieces]) for horizon in interpretation.horizons
     ]
+    bodies = [
+        _feature(body, BODY, [[*body.points.tolist(), body.points[0].tolist()]]) for body in interpretation.bodies
+    ]
     mark = {"version": VERSION, "x_unit": x_unit, "z_unit": z_unit}
-    return json_text({"type": "FeatureCollection", MARK: mark, "features": faults + horizons})
+    return json_text({"type": "FeatureCollection", MARK: mark, "features": faults + horizons + bodies})
 
 
-def _feature(pick: Fault | Horizon, kind: str, coordinates: list) -> dict[str, object]:
+def _feature(pick: Fault | Horizon | Body, kind: str, coordinates: list) -> dict[str, object]:
     geometry = {"type": GEOMETRY[kind], "coordinates": coordinates}
     properties = {"kind": kind, "name": str(pick.name)}
-    properties |= {"use": pick.use} if pick.use != CONSTRAIN else {}
-    properties |= {"ends": ends_text(pick)} if ends_text(pick) != AUTO else {}
+    use, ends = choices_of(pick)
+    properties |= ({"use": use} if use != CONSTRAIN else {}) | ({"ends": ends} if ends != AUTO else {})
     return {"type": "Feature", "properties": properties, "geometry": geometry}

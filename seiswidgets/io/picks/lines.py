@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from seiswidgets.errors import DataError, Keyword, PickError, SettingError, Text
+from seiswidgets.geology.bodies import BODY, SALT, Body
 from seiswidgets.geology.picks import AUTO, CONSTRAIN, FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.section import METRES, SECONDS, Section
 from seiswidgets.io.document import LARGEST_NUMBER, Points, shortened
@@ -17,7 +18,10 @@ UNDEFINED = 9_999_900  # and above: other programs write 9999900, 9999999 or 1e3
 
 @dataclass(frozen=True)
 class PickLine:
-    """A fault, or a piece of a horizon, as points (x, z), with its location in the file, its use and its ends."""
+    """A fault, a body, or a piece of a horizon, as points (x, z), with its location in the file, its use and its ends.
+
+    The use of a body is its kind, "salt" or "no data".
+    """
 
     kind: str
     name: str
@@ -49,16 +53,30 @@ def build_interpretation(path: Path, lines: tuple[PickLine, ...]) -> Interpretat
         named.setdefault((line.kind, line.name), []).append(line)
     faults = [_fault(path, name, pieces) for (kind, name), pieces in named.items() if kind == FAULT]
     horizons = [_horizon(path, name, pieces) for (kind, name), pieces in named.items() if kind == HORIZON]
-    return Interpretation(tuple(faults), tuple(horizons))
+    bodies = [_body(path, name, pieces) for (kind, name), pieces in named.items() if kind == BODY]
+    return Interpretation(tuple(faults), tuple(horizons), tuple(bodies))
+
+
+def _check_single(path: Path, name: str, pieces: list[PickLine]) -> None:
+    if len(pieces) > 1:
+        kind = pieces[0].kind
+        raise DataError(
+            f"{path}: {pieces[1].location} is a second line of {kind} {shortened(repr(name))}, after "
+            f"{pieces[0].location}; a {kind} is one line, so give each line a name of its own",
+            pick=name,
+        )
+
+
+def _body(path: Path, name: str, pieces: list[PickLine]) -> Body:
+    _check_single(path, name, pieces)
+    try:
+        return Body(np.array(pieces[0].points), SALT if pieces[0].use == CONSTRAIN else pieces[0].use, name)
+    except (PickError, SettingError) as error:
+        raise _located_error(path, pieces[0], error) from error
 
 
 def _fault(path: Path, name: str, pieces: list[PickLine]) -> Fault:
-    if len(pieces) > 1:
-        raise DataError(
-            f"{path}: {pieces[1].location} is a second line of fault {shortened(repr(name))}, after "
-            f"{pieces[0].location}; a fault is one line, so give each line a name of its own",
-            pick=name,
-        )
+    _check_single(path, name, pieces)
     try:
         first, _, last = pieces[0].ends.partition(" ")
         return Fault(np.array(pieces[0].points), name, (first, last or first), pieces[0].use)
@@ -73,9 +91,10 @@ def _horizon(path: Path, name: str, pieces: list[PickLine]) -> Horizon:
         raise _located_error(path, pieces[0], error) from error
 
 
-def ends_text(pick: Fault | Horizon) -> str:
-    """The choices for the ends of a fault, as in a file: one word if both are the same."""
-    return " ".join(dict.fromkeys(pick.ends if isinstance(pick, Fault) else (AUTO,)))
+def choices_of(pick: Fault | Horizon | Body) -> tuple[str, str]:
+    """Use and ends of a pick, or a body's kind, as in a file: one word for the ends if both are the same."""
+    use = pick.kind if isinstance(pick, Body) else pick.use
+    return use, " ".join(dict.fromkeys(pick.ends if isinstance(pick, Fault) else (AUTO,)))
 
 
 def _located_error(path: Path, line: PickLine, error: PickError | SettingError) -> DataError:

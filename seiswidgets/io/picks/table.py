@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from seiswidgets.errors import DataError
+from seiswidgets.geology.bodies import BODY, Body
 from seiswidgets.geology.picks import AUTO, CONSTRAIN, FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.io.document import MOST_JSON_BYTES, Point, read_text, text_lines
-from seiswidgets.io.picks.lines import FileLines, PickLine, ends_text, parse_number
+from seiswidgets.io.picks.lines import FileLines, PickLine, choices_of, parse_number
 
 COLUMNS = ("kind", "name", "piece", "x", "z")
+KINDS = {Fault: FAULT, Horizon: HORIZON, Body: BODY}
 CHOICES = {"use": CONSTRAIN, "ends": AUTO}  # columns that may be left out, with the usual values
 FORMULA = re.compile(r"'*[=+\-@\t\r\n＝＋－＠]")  # a spreadsheet would compute a name that begins like this
 
@@ -35,8 +37,8 @@ def read(path: Path) -> FileLines:
                 "delete that row"
             )
         kind, name, piece = (row[columns[column]] for column in COLUMNS[:3])
-        if kind not in (FAULT, HORIZON):
-            raise DataError(f"{path}: {location}: kind must be 'fault' or 'horizon', but is {kind[:60]!r}")
+        if kind not in (FAULT, HORIZON, BODY):
+            raise DataError(f"{path}: {location}: kind must be 'fault', 'horizon' or 'body', but is {kind[:60]!r}")
         x, z = (parse_number(path, location, column, row[columns[column]]) for column in ("x", "z"))
         name = name[1:] if name[:1] == "'" and FORMULA.match(name) else name
         choices = {title: row[columns[title]] for title in CHOICES if title in columns and row[columns[title]]}
@@ -78,13 +80,13 @@ def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
     """The CSV table of an interpretation, with exact numbers."""
     table = io.StringIO(newline="")
     writer = csv.writer(table)
-    picks: list[Fault | Horizon] = [*interpretation.faults, *interpretation.horizons]
-    usual = all([pick.use, ends_text(pick)] == list(CHOICES.values()) for pick in picks)
+    picks: list[Fault | Horizon | Body] = [*interpretation.faults, *interpretation.horizons, *interpretation.bodies]
+    usual = all(choices_of(pick) == tuple(CHOICES.values()) for pick in picks)
     writer.writerow([*COLUMNS[:3], f"x ({x_unit})", f"z ({z_unit})", *([] if usual else CHOICES)])
     for pick in picks:
-        kind = FAULT if isinstance(pick, Fault) else HORIZON
-        pieces = (pick.points,) if isinstance(pick, Fault) else pick.pieces
-        choices = [] if usual else [pick.use, ends_text(pick)]
+        kind = KINDS[type(pick)]
+        pieces = pick.pieces if isinstance(pick, Horizon) else (pick.points,)
+        choices = () if usual else choices_of(pick)
         for count, piece in enumerate(pieces, 1):
             writer.writerows([kind, _guarded(pick.name), count, x, z, *choices] for x, z in piece.tolist())
     return table.getvalue()

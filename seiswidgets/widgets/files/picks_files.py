@@ -5,11 +5,10 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-import numpy as np
 from ipywidgets import Button, Checkbox, Dropdown, HBox, Layout, Text, VBox
 
 from seiswidgets.errors import SettingError
-from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
+from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.section import METRES, SECONDS, Section
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.files import user_path
@@ -180,13 +179,12 @@ class PicksFiles(VBox):
 
 def _with_added(drawing: Drawing, picks: Interpretation) -> Drawing:
     """Add picks to a drawing; they replace those of the same names."""
-    new_picks: list[tuple[str, str, tuple[np.ndarray, ...]]] = [
-        (FAULT, fault.name, (fault.points,)) for fault in picks.faults
-    ]
-    new_picks += [(HORIZON, horizon.name, horizon.pieces) for horizon in picks.horizons]
-    for kind, name, pieces in new_picks:
-        add = drawing.with_pieces if name in drawing.names(kind) else drawing.with_pick
-        drawing = add(kind, name, pieces)
+    for new in Drawing().with_interpretation(picks).picks:
+        if new.name in drawing.names(new.kind):
+            drawing = drawing.with_pieces(new.kind, new.name, new.pieces)
+        else:
+            pieces, use = new.pieces, new.use
+            drawing = drawing.with_pick(new.kind, new.name, pieces, use=use, ends=new.ends, body=new.body)
     return drawing
 
 
