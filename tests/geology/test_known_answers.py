@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.core.meshers import chosen_mesher
 from tests.geology.answers import block_errors, largest_throw, spacing_for
 
 CASES = {
@@ -78,7 +79,8 @@ def test_a_fold_becomes_level_and_keeps_its_length(dip, spacing):
     report = restored.stages[-1].report
     before, after = (np.hypot(*np.diff(points, axis=0).T).sum() for points in (bed.pieces[0], line))
     assert report.converged
-    assert report.iterations <= (15 if dip <= 45 else 40)
+    shallow = 15 if chosen_mesher() == "Triangle" else 20  # at 45 degrees, 11 to 19 steps by either's meshes
+    assert report.iterations <= (shallow if dip <= 45 else 40)
     assert report.flipped == 0
     assert report.findings == ()
     assert np.ptp(line[:, 1]) / 2 < 0.15 * case.section.dz  # it is drawn within a tenth of a sample of the mesh
