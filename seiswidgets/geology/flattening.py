@@ -9,12 +9,12 @@ import numpy as np
 import shapely
 from shapely import LineString
 
-from seiswidgets.core.bedding import AreaChange, BedStretch
 from seiswidgets.core.mesh import Mesh, edge_keys
 from seiswidgets.core.term import Term
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
+from seiswidgets.geology.bedding import bedding_terms
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import merge_close_points
 from seiswidgets.geology.observations import observe_level
@@ -83,7 +83,10 @@ def flatten_stage(
     free = np.ones(len(mesh.vertices), bool)
     start = warm_start(mesh, free, options.start)
     start = mesh.vertices if start is None else start
-    terms = [*_terms(bed, level, options.row_weights), *_bedding(mesh, [*pieces, *guides], domain, options.row_weights)]
+    terms = [
+        *_terms(bed, level, options.row_weights),
+        *bedding_terms(mesh, [*pieces, *guides], domain.spacing, options.row_weights),
+    ]
     solution = minimise(mesh, terms, start, free, domain, options)
     vertices = solution.vertices.copy()
     drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=mesh.vertex_areas)
@@ -120,32 +123,6 @@ def _terms(bed: Bed, level: Level, weights: Weights) -> list[Term]:
         level,
         AreaBarrier(mesh),
     ]
-
-
-def _bedding(mesh: Mesh, lines: Sequence[LineString], domain: RestorationDomain, weights: Weights) -> list[Term]:
-    """The terms that let beds slip past each other."""
-    if not weights.bedding:
-        return []
-    centres = mesh.vertices[mesh.triangles].mean(axis=1)
-    directions = bed_directions(centres, lines, domain.spacing)
-    return [BedStretch(mesh, directions, weights.bedding), AreaChange(mesh, weights.bedding)]
-
-
-def bed_directions(points: np.ndarray, lines: Sequence[LineString], spacing: float) -> np.ndarray:
-    """Unit vectors along the beds, interpolated between horizons by the inverse squared distance; shape (n, 2).
-
-    Where a bed is parallel to a horizon, its direction is that of the nearest point of the horizon.
-    """
-    square = np.zeros(len(points), complex)  # of a direction as a complex number: opposite directions are the same
-    for line in lines:
-        nearest = shapely.line_locate_point(line, shapely.points(points))
-        ends = np.clip([nearest - spacing / 2, nearest + spacing / 2], 0, line.length)
-        start, stop = (shapely.get_coordinates(shapely.line_interpolate_point(line, end)) for end in ends)
-        arm = (stop - start) @ [1, 1j]
-        near = shapely.distance(line, shapely.points(points)) + 0.1 * spacing
-        square += (arm / np.maximum(np.abs(arm), np.finfo(float).tiny)) ** 2 / near**2
-    direction = np.sqrt(square / np.maximum(np.abs(square), np.finfo(float).tiny))
-    return np.column_stack([direction.real, direction.imag])
 
 
 def _mean_level(ends: np.ndarray) -> float:

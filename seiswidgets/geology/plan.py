@@ -24,7 +24,7 @@ from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.weights import Weights
 
 UNFAULT, FLATTEN = "unfault", "flatten"
-UNUSED_WEIGHTS = {UNFAULT: ("flatten", "length", "bedding"), FLATTEN: ("slide", "stitch", "rotation")}
+UNUSED_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch", "rotation")}
 COARSE, QUICK = 3.0, 2  # a preview's mesh spacing as a multiple of the full one, and its number of iterations
 EDGES, VERTICES = 3, 100  # least numbers in a preview's mesh: edges along each pick, vertices in all
 

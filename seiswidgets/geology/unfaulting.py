@@ -17,6 +17,7 @@ from seiswidgets.core.seams import weld_seams
 from seiswidgets.core.term import Term
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.errors import Keyword, PickError, SettingError
+from seiswidgets.geology.bedding import bedding_terms
 from seiswidgets.geology.blocks import Blocks, mesh_blocks
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import NO_ENDS
@@ -60,7 +61,7 @@ def unfault_stage(
     unheld = bool(free.all())
     if pinned.term is not None and options.solver != GAUSS_NEWTON:
         raise SettingError("pins and a regional level need ", Keyword("solver", GAUSS_NEWTON))
-    terms = [*_terms(blocks, options.row_weights), *([pinned.term] if pinned.term else [])]
+    terms = [*_terms(blocks, options.row_weights, domain.spacing), *([pinned.term] if pinned.term else [])]
     start = warm_start(mesh, free, options.start)
     if start is None:  # the paper starts its own solver from the unmoved mesh
         start = _slide_blocks(mesh, blocks.stitches, free, terms) if options.solver == GAUSS_NEWTON else mesh.vertices
@@ -115,8 +116,8 @@ def _far_field(blocks: Blocks, fixed: np.ndarray, triangle: int, domain: Restora
     return min([end for end in ends if end.sum() > 1] or [within], key=lambda end: abs(fixed[0] - x[end].mean()))
 
 
-def _terms(blocks: Blocks, weights: Weights) -> list[Term]:
-    mesh = blocks.mesh
+def _terms(blocks: Blocks, weights: Weights, spacing: float) -> list[Term]:
+    mesh, segments = blocks.mesh, blocks.network.horizons.values()
     pairs = blocks.stitches[blocks.stitches[:, 0] != blocks.stitches[:, 1]]  # at a blind tip both are one
     return [
         MeanValue(mesh, weights.mean_value),
@@ -129,6 +130,7 @@ def _terms(blocks: Blocks, weights: Weights) -> list[Term]:
             for term in contacts(mesh, sides, blocks.lines[name], weights.slide, "contact", beyond)
         ),
         AreaBarrier(mesh),
+        *bedding_terms(mesh, [segment.line for bed in segments for segment in bed], spacing, weights),
         *([EdgeDirection(mesh.vertices, mesh.edges, weights.rotation)] if weights.rotation else []),
     ]
 

@@ -23,7 +23,7 @@ class Weights:
         Not in the paper, and off by default: how strongly blocks are kept from turning while unfaulting.
     bedding : float
         Not in the paper, and off by default: how strongly areas, and lengths along the beds, are kept in all the rock
-        while flattening, so that beds slip past each other as in a flexural-slip fold; 10 is a good value.
+        so that beds slip past each other, as in a flexural-slip fold or a thrust sheet; 10 is a good value.
 
     Those of a line (stitch, flatten, length) are multiplied by the root of the number of its edges, so that they mean
     the same on a fine mesh as on a coarse one.
