@@ -6,12 +6,14 @@ from seiswidgets.errors import PickError, SeiswidgetsError
 from seiswidgets.geology.blocks import Blocks, mesh_blocks
 from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.findings import Finding, worst_first
+from seiswidgets.geology.flattening import mesh_bed
 from seiswidgets.geology.observations import observe_picks
-from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.picks import Horizon, Interpretation
 from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob, Step
-from seiswidgets.geology.restoration import Beds, EndsOfFaults, Lines, Restoration
+from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.unfaulting import free_vertices
+from seiswidgets.geology.usable_picks import Beds, EndsOfFaults, Lines
 from seiswidgets.geology.validation import checked_kind
 
 
@@ -60,9 +62,14 @@ def _check_step(start: Restoration, job: RestorationJob, step: Step) -> Sequence
     try:
         if step.kind == UNFAULT:
             return _check_unfaulting(start, job, step)
-        return start.check_flattening(job.horizon(step))
+        return _check_flattening(start, job.horizon(step))
     except SeiswidgetsError as error:
         return [_refusal(error)]
+
+
+def _check_flattening(start: Restoration, horizon: Horizon) -> Sequence[Finding]:
+    mesh_bed(start.domain, horizon.name, start.usable_picks.bed_lines(horizon))
+    return start.usable_picks.notes([horizon])
 
 
 def _check_unfaulting(start: Restoration, job: RestorationJob, step: Step) -> Sequence[Finding]:
@@ -70,10 +77,10 @@ def _check_unfaulting(start: Restoration, job: RestorationJob, step: Step) -> Se
         return mesh_blocks(start.domain, lines, beds, walls, ends)
 
     faults, boundaries = job.faults(step), job.boundaries(step)
-    blocks, notes = start.with_usable_picks(mesh, faults, job.interpretation.horizons, boundaries)
+    blocks, notes = start.usable_picks.use(mesh, faults, job.interpretation.horizons, boundaries)
     found = [*notes, *observe_picks(blocks, start.domain)]
     try:
-        holds = start.holds(job.plan.fixed, job.plan.pins, job.plan.regional)
+        holds = start.usable_picks.holds(job.plan.fixed, job.plan.pins, job.plan.regional)
         free_vertices(blocks, holds.fixed, start.domain)
     except PickError as error:
         found.append(_refusal(error))

@@ -1,9 +1,9 @@
 """The restoration of a section: a chain of stages, each made from the one before."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar, Unpack
+from typing import Unpack
 
 import numpy as np
 import shapely
@@ -13,14 +13,10 @@ from shapely import LineString
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.bodies import Body, body_polygons, without_bodies
-from seiswidgets.geology.clipping import CLIPPED, clip_findings
-from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.flattening import flatten_stage, mesh_bed
-from seiswidgets.geology.holds import Holds
-from seiswidgets.geology.passive import carried_finding, carry_refused, constraining, flaws
-from seiswidgets.geology.picks import Ends, Fault, Horizon, both_ends
+from seiswidgets.geology.flattening import flatten_stage
+from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
@@ -29,19 +25,12 @@ from seiswidgets.geology.transfer import (
     OUTSIDE,
     area_ratio_at,
     carried_body,
-    carried_boundaries,
     carried_fault,
     carried_horizon,
-    carried_point,
     picture,
 )
 from seiswidgets.geology.unfaulting import unfault_stage
-
-Lines = dict[str, np.ndarray]
-Beds = dict[str, list[LineString]]
-EndsOfFaults = dict[str, Ends]
-Regional = float | Sequence[tuple[float, float]] | None
-Made = TypeVar("Made")
+from seiswidgets.geology.usable_picks import Beds, EndsOfFaults, Lines, Regional, UsablePicks
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,100 +150,18 @@ class Restoration:
             If ``progress`` returned False.
         """
         solver_options = SolverOptions.from_keywords("unfault", options)
-        holds = self.holds(fixed, pins, regional)
+        holds = self.usable_picks.holds(fixed, pins, regional)
 
         def slide_blocks(lines: Lines, beds: Beds, walls: Lines, ends: EndsOfFaults) -> Stage:
             return unfault_stage(self.domain, lines, beds, holds, solver_options, walls, ends=ends)
 
-        stage, notes = self.with_usable_picks(slide_blocks, faults, horizons, boundaries)
+        stage, notes = self.usable_picks.use(slide_blocks, faults, horizons, boundaries)
         return self._with_stage(
             replace(stage, weights=solver_options.weights, fixed=fixed, pins=tuple(pins), regional=regional), notes
         )
 
-    def holds(
-        self, fixed: tuple[float, float] | None, pins: Sequence[tuple[float, float]], regional: Regional
-    ) -> Holds:
-        """The points that hold the section, after the stages so far."""
-        x_min, x_max, *_ = self.original.extent
-        ends = [(x_min, regional), (x_max, regional)] if isinstance(regional, int | float) else regional
-        pinned, level = (
-            np.array([carried_point(self.original, self.stages, point, name) for point in held]).reshape(-1, 2)
-            for name, held in (
-                ("a pin", validation.held_points("pins", pins)),
-                ("the regional level", validation.held_points("regional", ends or ())),
-            )
-        )
-        return Holds(None if fixed is None else carried_point(self.original, self.stages, fixed), pinned, level)
-
-    def with_usable_picks(
-        self,
-        make: Callable[[Lines, Beds, Lines, EndsOfFaults], Made],
-        faults: Fault | Sequence[Fault],
-        horizons: Horizon | Sequence[Horizon] = (),
-        boundaries: Fault | Sequence[Fault] = (),
-    ) -> tuple[Made, tuple[Finding, ...]]:
-        """Call a function with the lines of picks after the stages so far, without the picks that it refuses.
-
-        Parameters
-        ----------
-        make : callable(faults, horizons, boundaries, ends)
-            Lines in metres of rock by name; a PickError about one of them refuses it.
-        faults, horizons, boundaries
-            As for `unfault`.
-
-        Returns
-        -------
-        made : object
-            The result of the function.
-        notes : tuple of Finding
-            About picks that were clipped, refused, or can only be carried.
-
-        Raises
-        ------
-        PickError
-            If no fault can be used.
-        """
-        named_faults = validation.named_picks(faults, Fault, "fault")
-        named_horizons = validation.named_picks(horizons, Horizon, "horizon")
-        named_boundaries = validation.named_picks(boundaries, Fault, "fault")
-        if not named_faults:
-            raise PickError("there is no fault to unfault; give at least one")
-        chain = self.original, self.stages
-        first = self.stages[0].domain if self.stages else self.domain
-        others = {name: fault for name, fault in named_boundaries.items() if fault not in named_faults.values()}
-        walls = carried_boundaries(*chain, constraining(others), first)
-
-        def make_of(faults: dict[str, Fault], horizons: dict[str, Horizon]) -> Made:
-            lines = {name: carried_fault(*chain, fault, first) for name, fault in faults.items()}
-            beds = {name: carried_horizon(*chain, bed, flawless=True) for name, bed in horizons.items()}
-            return make(lines, beds, walls, {name: both_ends(fault.ends) for name, fault in faults.items()})
-
-        picks: list[Fault | Horizon] = [*named_faults.values(), *named_horizons.values()]
-        used = constraining(named_faults), constraining(named_horizons)
-        if not used[0]:
-            unused = PickError("no fault is used as a constraint; set the use of one to 'constrain'")
-            raise next(iter(flaws(picks)), unused)
-        made, refusals = carry_refused(make_of, *used)
-        return made, self._notes(picks, refusals)
-
-    def _notes(self, picks: Sequence[Fault | Horizon], refusals: Sequence[PickError] = ()) -> tuple[Finding, ...]:
-        """Notes about picks that are clipped, cross each other, are refused, or can only be carried."""
-        refused = {error.pick for error in refusals}
-        flawed = [self._brought_here(carried_finding(flaw)) for flaw in flaws(picks)]
-        horizons = [pick for pick in picks if isinstance(pick, Horizon) and pick.constrains]
-        crossed = map(self._brought_here, crossing_findings(self.original, horizons))
-        clipped = self._clipped(*(pick for pick in picks if pick.constrains and pick.name not in refused))
-        return (*clipped, *flawed, *crossed, *map(carried_finding, refusals))
-
     def _with_stage(self, stage: Stage, notes: Sequence[Finding]) -> "Restoration":
         return replace(self, stages=(*self.stages, stage.with_notes(*notes)))
-
-    def _brought_here(self, finding: Finding) -> Finding:
-        """A finding with its position after the stages so far."""
-        if finding.where is None or not self.stages:
-            return finding
-        ((x, z),) = self.to_restored([finding.where])
-        return replace(finding, where=(float(x), float(z)) if np.isfinite([x, z]).all() else None)
 
     def flatten(
         self,
@@ -288,29 +195,18 @@ class Restoration:
         """
         solver_options = SolverOptions.from_keywords("flatten", options)
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
-        pieces = self._bed_lines(horizon)
-        guides = [line for bed in beds if bed.name != horizon.name and bed.constrains for line in self._bed_lines(bed)]
+        picks = self.usable_picks
+        pieces = picks.bed_lines(horizon)
+        guides = [line for bed in beds if bed.name != horizon.name and bed.constrains for line in picks.bed_lines(bed)]
         if datum is not None:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
         stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, guides)
-        return self._with_stage(replace(stage, weights=solver_options.weights), self._notes([horizon]))
+        return self._with_stage(replace(stage, weights=solver_options.weights), picks.notes([horizon]))
 
-    def check_flattening(self, horizon: Horizon) -> tuple[Finding, ...]:
-        """Findings about a horizon to flatten as it was drawn; PickError if it cannot be used."""
-        mesh_bed(self.domain, horizon.name, self._bed_lines(horizon))
-        return self._notes([horizon])
-
-    def _bed_lines(self, horizon: Horizon) -> list[LineString]:
-        """The lines of a horizon after the stages so far, without pieces that have a flaw."""
-        if horizon.flaw and None not in horizon.flaws:
-            raise horizon.flaw
-        return carried_horizon(self.original, self.stages, horizon, flawless=True)
-
-    def _clipped(self, *picks: Fault | Horizon) -> tuple[Finding, ...]:
-        """Notes about picks that stick out of the section, unless an earlier stage has them."""
-        noted = {note.pick for stage in self.stages for note in stage.outcome.notes if note.kind == CLIPPED}
-        notes = [note for note in clip_findings(self.original, picks) if note.pick not in noted]
-        return tuple(replace(note, where=None) if self.stages else note for note in notes)
+    @property
+    def usable_picks(self) -> UsablePicks:
+        """The picks that the next stage can use, in metres of rock."""
+        return UsablePicks(self.original, self.stages, self.domain)
 
     @cached_property
     def domain(self) -> RestorationDomain:
