@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.interaction.drawing import PickSelection
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, EditorState, Tools
@@ -49,7 +50,7 @@ def _grabbed(before: EditorState, after: EditorState) -> str:
 
 
 def _drawn(before: EditorState, after: EditorState) -> str:
-    """Describe what a press in fault or horizon mode draws or removes."""
+    """Describe what a press in fault, horizon or body mode draws or removes."""
     draft = after.drawing.draft
     if before.drawing.draft and draft:
         return "Click to add a vertex; double click or Enter finishes the line"
@@ -61,4 +62,4 @@ def _drawn(before: EditorState, after: EditorState) -> str:
 
 
 def _name(target: PickSelection) -> str:
-    return target.name or {FAULT: "the new fault", HORIZON: "the new horizon"}[target.kind]
+    return target.name or {FAULT: "the new fault", HORIZON: "the new horizon", BODY: "the new body"}[target.kind]

@@ -29,6 +29,7 @@ from seiswidgets.geology.picks import (
 from seiswidgets.geology.section import Section
 
 LETTERS = {FAULT: "F", HORIZON: "H", BODY: "B"}
+LEAST_POINTS = {FAULT: 2, HORIZON: 2, BODY: 3}
 
 Point = tuple[float, float]
 Points = tuple[Point, ...]
@@ -133,12 +134,12 @@ class Drawing:
         return PickSelection(self.draft.kind, None, 0, len(self.draft.points) - 1) if self.draft else None
 
     def with_line(self, target: PickSelection, points: ArrayLike) -> "Drawing":
-        """Replace the points of a line; a piece of fewer than two points goes, and so does a pick without pieces."""
+        """Replace the points of a line; a piece of too few points goes, and so does a pick without pieces."""
         if target.name is None:
             return self._with_draft(_points(points))
         pieces: list[ArrayLike] = list(self.pick(target.kind, target.name).pieces)
         index, points = target.piece or 0, _points(points)
-        pieces[index : index + 1] = [points] if len(points) > 1 else []
+        pieces[index : index + 1] = [points] if len(points) >= LEAST_POINTS[target.kind] else []
         return self.with_pieces(target.kind, target.name, pieces)
 
     def with_pieces(self, kind: str, name: str, pieces: Sequence[ArrayLike]) -> "Drawing":
@@ -181,10 +182,10 @@ class Drawing:
     def with_draft_finished(self) -> tuple["Drawing", str | None]:
         """Turn the draft line into a pick, or a piece of one, and return the name of that too.
 
-        A line of fewer than two different points stays a draft, and the name is None.
+        A line of fewer than two different points, or a body of fewer than three, stays a draft, and the name is None.
         """
         draft = self.draft
-        if draft is None or len(set(draft.points)) < 2:
+        if draft is None or len(set(draft.points)) < LEAST_POINTS[draft.kind]:
             return self, None
         drawing = replace(self, draft=None)
         if draft.name is not None and draft.name in drawing.names(draft.kind):
@@ -332,6 +333,11 @@ class Drawing:
         """Colour used least so far."""
         used = [pick.colour for pick in self.picks]
         return min(COLOURS[kind], key=used.count)
+
+
+def closed(points: Points) -> Points:
+    """Points with the first one repeated at the end."""
+    return (*points, *points[:1])
 
 
 def _points(points: ArrayLike) -> Points:

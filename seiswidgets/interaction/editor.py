@@ -1,7 +1,7 @@
 """The pick editor: a state machine that turns gestures into edits, with unlimited undo. It knows no Jupyter.
 
-Modes are look, fault, horizon and block. In fault and horizon mode, picks of that kind can be changed; in look mode,
-the one that is selected.
+Modes are look, fault, horizon, body and block. In fault, horizon and body mode, picks of that kind can be changed; in
+look mode, the one that is selected.
 
 `gesture_table` lists what each gesture and key does. Tab is never consumed, so that it leaves the canvas.
 """
@@ -157,6 +157,10 @@ class PickEditor:
     def use(self, kind: str, name: str, use: str) -> None:
         """Let a pick constrain the restoration, only carry it along, or ignore it."""
         self._draw(f"{use} {name}", self.drawing.with_use(kind, name, use))
+
+    def body_kind(self, kind: str, name: str, body: str) -> None:
+        """Say whether a body is salt or an area without data."""
+        self._draw(f"{body} in {name}", self.drawing.with_body_kind(name, body))
 
     def delete(self, kind: str, name: str) -> None:
         """Delete a pick; undo brings it back."""

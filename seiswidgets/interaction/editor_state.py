@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.interaction.document import Document
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Point, Points
@@ -15,7 +16,7 @@ from seiswidgets.interaction.snapping import END_REACH, snap_to_lines
 from seiswidgets.interaction.viewport import Viewport
 
 LOOK, BLOCK = "look", "block"
-MODES = (LOOK, FAULT, HORIZON, BLOCK)
+MODES = (LOOK, FAULT, HORIZON, BODY, BLOCK)
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,7 @@ class EditorState:
     Attributes
     ----------
     document : Document
-    mode : {"look", "fault", "horizon", "block"}
+    mode : {"look", "fault", "horizon", "body", "block"}
         If there is a draft line, its kind.
     selection : PickSelection or None
         A pick, a piece of it, or one vertex of that or of the draft line.

@@ -1,7 +1,7 @@
 """All gestures and keys of the panes, in the user's words; the app shows them as its help."""
 
 GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
-    "Drawing, in the modes Fault and Horizon": (
+    "Drawing, in the modes Fault, Horizon and Body": (
         (
             "Click",
             "adds a vertex to the line being drawn, or begins one; while a horizon is selected, another piece of it",
@@ -14,12 +14,12 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ),
         ("Shift", "while clicking: begins a line whatever lies there; while dragging: no snapping, and off the fault"),
         ("Ctrl+click", "removes a vertex"),
-        ("Double click, Enter", "finishes the line; the ends of a fault snap"),
+        ("Double click, Enter", "finishes the line; the ends of a fault snap, and a body is closed"),
         ("Escape", "cancels a drag; else the line; else the selection; else goes back to Look"),
         ("Ctrl+Z; Ctrl+Y, Ctrl+Shift+Z", "undo, a finished line by its last edits; redo. Anywhere in the app"),
     ),
     "Looking and holding": (
-        ("L, F, H, B", "modes Look, Fault, Horizon, Hold"),
+        ("L, F, H, S, B", "modes Look, Fault, Horizon, Body (salt), Hold"),
         ("Click, in Look", "selects a line, whose vertices can then be dragged"),
         ("Click, in Hold", "holds the block at the pointer; on the pin, releases it"),
         ("Shift+click, in Hold", "pins the point at the pointer; a click on a pin releases it"),

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.interaction.drawing import PickSelection, Point
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, EditorState, Tools
@@ -17,7 +18,7 @@ from seiswidgets.interaction.mouse import CTRL, abandon_drag
 STRIDE = 8.0  # css pixels that the keyboard cursor moves at least
 FAST = 10  # factor on that with Shift
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
-MODE_KEYS = {"l": LOOK, "f": FAULT, "h": HORIZON, "b": BLOCK}
+MODE_KEYS = {"l": LOOK, "f": FAULT, "h": HORIZON, "s": BODY, "b": BLOCK}
 
 
 def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | None:

@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.cutoff_handles import (
@@ -17,9 +18,10 @@ from seiswidgets.interaction.cutoff_handles import (
     split_at_cutoff,
     wall_of,
 )
-from seiswidgets.interaction.drawing import Drawing, PickSelection
+from seiswidgets.interaction.drawing import Drawing, PickSelection, Points, closed
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, Drag, EditorState, Tools
 from seiswidgets.interaction.gestures import DoubleClick, Move, Press, Release, line_under, vertex_under
+from seiswidgets.interaction.projection import side_of
 
 CLICK_RADIUS = 3.0  # css pixels: a press that moves less is a click
 CTRL = frozenset({"ctrl", "meta"})
@@ -125,7 +127,7 @@ def _grab_line(state: EditorState, event: Press, tools: Tools) -> EditorState | 
     hits = [
         (hit[2], replace(target, vertex=hit[0]), hit[1])
         for target, points in state.editable_lines()
-        if (hit := line_under(event, points, event.projection.to_pixels))
+        if (hit := line_under(event, _border(target.kind, points), event.projection.to_pixels))
     ]
     if not hits:
         return None
@@ -173,9 +175,18 @@ def _vertex_under(state: EditorState, event: Press) -> PickSelection | None:
     hits = [
         (hit[1], replace(target, vertex=hit[0]))
         for target, points in state.editable_lines()
-        if (hit := vertex_under(event, points, partial(event.projection.vertex_pixels, is_fault=target.kind == FAULT)))
+        if (
+            hit := vertex_under(
+                event, points, partial(event.projection.vertex_pixels, side=side_of(target.kind, points))
+            )
+        )
     ]
     return min(hits, key=lambda hit: hit[0])[1] if hits else None
+
+
+def _border(kind: str, points: Points) -> Points:
+    """The points of a pick's line, closed if it is a body."""
+    return closed(points) if kind == BODY else points
 
 
 def _select_under(state: EditorState, event: Press) -> EditorState | None:
@@ -190,6 +201,6 @@ def _piece_under(state: EditorState, event: Press | DoubleClick) -> PickSelectio
         for pick in state.drawing.picks
         if pick.visible
         for piece, points in enumerate(pick.pieces)
-        if (hit := line_under(event, points, event.projection.to_pixels))
+        if (hit := line_under(event, _border(pick.kind, points), event.projection.to_pixels))
     ]
     return min(hits, key=lambda hit: hit[0])[1] if hits else None

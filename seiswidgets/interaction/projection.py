@@ -7,6 +7,8 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
+from seiswidgets.geology.bodies import BODY
+from seiswidgets.geology.picks import FAULT
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.drawing import Point
@@ -18,7 +20,7 @@ OFFSET = 0.02  # css pixels that a line is moved off a fault, so that it belongs
 JUMP = 3.0  # a step that grows by more than this factor crosses a fault
 TOLERANCE = 0.1  # traces and samples that a simplified line may be off
 
-Line = tuple[ArrayLike, bool]  # its points, shape (n, 2), and whether it is a fault
+Line = tuple[ArrayLike, int]  # its points, shape (n, 2), and the side that it goes with; see `side_of`
 Map = Callable[[np.ndarray], np.ndarray]
 
 
@@ -55,25 +57,26 @@ class PaneProjection:
     def vertices(self, lines: Sequence[Line]) -> list[np.ndarray]:
         """Positions of the vertices of present-day lines in the pane's section, each of shape (n, 2).
 
-        The ends of a horizon go with the rock between them, and a fault with the rock on one side.
+        The ends of a horizon go with the rock between them, a fault with the rock on one side, and a body with the rock
+        around it.
 
         Parameters
         ----------
-        lines : sequence of (points, is_fault)
-            Points of shape (n, 2), and True for a fault.
+        lines : sequence of (points, side)
+            Points of shape (n, 2), and their side as by `side_of`.
         """
         return _mapped_together(self.to_pane, self._moved_off_faults(lines))
 
-    def vertex_pixels(self, points: ArrayLike, is_fault: bool = False) -> np.ndarray:
+    def vertex_pixels(self, points: ArrayLike, side: int = 0) -> np.ndarray:
         """Css pixels in the pane of the vertices of one present-day line, shape (n, 2)."""
-        return self.view.to_pixels(self.vertices([(points, is_fault)])[0])
+        return self.view.to_pixels(self.vertices([(points, side)])[0])
 
     def lines(self, lines: Sequence[Line]) -> list[np.ndarray]:
         """Present-day lines as the pane shows them, with a row of NaN where a line is interrupted.
 
         Parameters
         ----------
-        lines : sequence of (points, is_fault)
+        lines : sequence of (points, side)
             As for ``vertices``.
         """
         if self.restoration is None:
@@ -98,19 +101,26 @@ class PaneProjection:
     def _moved_off_faults(self, lines: Sequence[Line]) -> list[np.ndarray]:
         if self.restoration is None:
             return [np.asarray(points, float) for points, _ in lines]
-        return [_moved_off_fault(points, self.view.pixel, is_fault) for points, is_fault in lines]
+        return [_moved_off_fault(points, self.view.pixel, side) for points, side in lines]
 
 
-def _moved_off_fault(points: ArrayLike, pixel: np.ndarray, is_fault: bool) -> np.ndarray:
-    """Move a line off the faults by a fraction of a pixel: a horizon's ends inwards, and a fault sideways too."""
+def side_of(kind: str, points: ArrayLike) -> int:
+    """The side of a pick whose rock it moves with: 1 or -1 for a fault or the border of a body, 0 for a horizon."""
+    if kind != BODY:
+        return int(kind == FAULT)
+    (x, z), (next_x, next_z) = (np.roll(np.asarray(points, float), shift, axis=0).T for shift in (0, -1))
+    return 1 if np.sum(x * next_z - next_x * z) < 0 else -1
+
+
+def _moved_off_fault(points: ArrayLike, pixel: np.ndarray, side: int) -> np.ndarray:
+    """Move a line off the faults by a fraction of a pixel: its ends inwards, and unless it has no side, sideways."""
     line = np.array(points, float)
     if len(line) < 2:
         return line
     along = np.gradient(line / pixel, axis=0)
     along[~along.any(axis=1)] = 1.0  # between two equal points
     offset = OFFSET * along / np.hypot(*along.T)[:, None]
-    if is_fault:
-        line += pixel * offset[:, ::-1] * [-1, 1]
+    line += side * pixel * offset[:, ::-1] * [-1, 1]
     line[0] += 2 * pixel * offset[0]
     line[-1] -= 2 * pixel * offset[-1]
     return line

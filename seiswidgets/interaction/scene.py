@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT
 from seiswidgets.interaction.cutoff_handles import CutOffHandle
-from seiswidgets.interaction.drawing import PickSelection, Point, Points
+from seiswidgets.interaction.drawing import PickSelection, Point, Points, closed
 from seiswidgets.interaction.editor_state import LOOK, EditorState
 from seiswidgets.interaction.overlay import Mark, Stroke
-from seiswidgets.interaction.projection import PaneProjection
+from seiswidgets.interaction.projection import PaneProjection, side_of
 
 DRAFT_COLOUR = "#d81b60"
 WIDTH, WIDTH_SELECTED = 2.0, 3.5  # css pixels
@@ -22,8 +23,8 @@ def strokes(state: EditorState, projection: PaneProjection) -> list[Stroke]:
     """All visible picks, the draft line and its dashed continuation to the keyboard cursor; then vertices as dots."""
     lines = list(_lines(state))
     open_lines = [line for line in lines if line.is_open]
-    shown = projection.lines([(line.points, line.target.kind == FAULT) for line in lines])
-    vertices = projection.vertices([(line.points, line.target.kind == FAULT) for line in open_lines])
+    shown = projection.lines([(line.border, line.side) for line in lines])
+    vertices = projection.vertices([(line.points, line.side) for line in open_lines])
     return [
         *(line.stroke(points) for line, points in zip(lines, shown, strict=True)),
         *(line.dots(points, projection.view.pixel) for line, points in zip(open_lines, vertices, strict=True)),
@@ -67,6 +68,16 @@ class _Line:
     is_open: bool = False
     chosen: int | None = None
     dash: tuple[float, ...] = ()
+
+    @property
+    def border(self) -> Points:
+        """The points; those of a finished body are closed."""
+        is_closed = self.target.kind == BODY and self.target.name is not None
+        return closed(self.points) if is_closed else self.points
+
+    @property
+    def side(self) -> int:
+        return side_of(self.target.kind, self.points)
 
     @property
     def width(self) -> float:

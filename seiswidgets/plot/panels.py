@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from seiswidgets.errors import SettingError
+from seiswidgets.geology.bodies import BODY, Body
 from seiswidgets.geology.pick_colours import PickColours, pick_colours
 from seiswidgets.geology.picks import FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
@@ -20,6 +21,8 @@ from seiswidgets.signatures import strict_keywords
 MESH_COLOUR = "#d81b60"
 ACTIONS = {"unfault": "unfaulting", "flatten": "flattening"}
 HALO = [withStroke(linewidth=3.2, foreground="0.15", alpha=0.75)]  # dark: most colours of picks are light
+AnyPick = Fault | Horizon | Body
+KIND_OF: dict[type, str] = {Fault: FAULT, Horizon: HORIZON, Body: BODY}
 
 
 @strict_keywords
@@ -179,11 +182,11 @@ def draw_picks(
 
 def draw_pick_lines(
     ax: Axes, restored: Restoration, interpretation: Interpretation | None, colours: PickColours | None
-) -> list[tuple[Fault | Horizon, list[np.ndarray], str]]:
+) -> list[tuple[AnyPick, list[np.ndarray], str]]:
     """Draw the original's picks after restoration, and return each with its lines and its colour."""
     by_name = pick_colours(interpretation or Interpretation(), colours)
     picks = [
-        (pick, lines, by_name[FAULT if isinstance(pick, Fault) else HORIZON, pick.name])
+        (pick, lines, by_name[KIND_OF[type(pick)], pick.name])
         for pick, lines in restored_picks(restored, interpretation)
     ]
     for _, lines, colour in picks:
@@ -194,16 +197,18 @@ def draw_pick_lines(
 
 def restored_picks(
     restored: Restoration, interpretation: Interpretation | None
-) -> list[tuple[Fault | Horizon, list[np.ndarray]]]:
+) -> list[tuple[AnyPick, list[np.ndarray]]]:
     """Each pick and its lines after restoration, faults last so that they are drawn on top."""
-    picks: list[Fault | Horizon] = []
+    picks: list[AnyPick] = []
     if interpretation is not None:
-        picks = [*interpretation.horizons, *interpretation.faults]
+        picks = [*interpretation.bodies, *interpretation.horizons, *interpretation.faults]
     return [(pick, restored.carried(pick) if restored.stages else _lines_as_drawn(pick)) for pick in picks]
 
 
-def _lines_as_drawn(pick: Fault | Horizon) -> list[np.ndarray]:
+def _lines_as_drawn(pick: AnyPick) -> list[np.ndarray]:
     """Lines of a pick, even if they lie outside the section: a figure is where such a mistake is seen."""
+    if isinstance(pick, Body):
+        return [np.vstack([pick.points, pick.points[:1]])]
     return [pick.points] if isinstance(pick, Fault) else list(pick.pieces)
 
 

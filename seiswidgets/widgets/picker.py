@@ -9,6 +9,7 @@ from traitlets import Any as AnyTrait
 from traitlets import Bool, Bunch, Enum, Float, Instance, observe, validate
 
 from seiswidgets.geology import validation
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.section import Section
@@ -36,7 +37,7 @@ OFF = "off"
 ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
 KEYS = (
     *("Enter", "Escape", "Delete", "Backspace", "Insert", "PageUp", "PageDown", " "),
-    *"lfhbiLFHBI",
+    *"lfhsbiLFHSBI",
     *ARROWS,
     *(f"Ctrl+{key}" for key in (*ARROWS, "z", "Z", "y", "Y")),
 )
@@ -44,6 +45,7 @@ MODE_LABELS = {
     LOOK: ("Look", "Zoom and pan; click a line to select it (L)"),
     FAULT: ("Fault", "Click along a fault; double click or press Enter to finish it (F)"),
     HORIZON: ("Horizon", "Click along a horizon; double click or press Enter to finish a piece of it (H)"),
+    BODY: ("Body", "Click around salt or an area without data; double click or press Enter to close it (S)"),
     BLOCK: (
         "Hold",
         "Click in the block to hold, or Shift+click a point to pin; click a pin to release it (B)",
@@ -59,11 +61,11 @@ ACTIONS = {  # icon, action, keys
 
 
 class Picker(WithParts, VBox):
-    """A section on which faults and horizons are drawn; every edit can be undone.
+    """A section on which faults, horizons and bodies are drawn; every edit can be undone.
 
-    In fault and horizon mode a click adds a vertex, a double click or Enter finishes the line, and Escape drops it;
+    In fault, horizon and body mode a click adds a vertex, a double click or Enter finishes the line, Escape drops it;
     vertices and cut-offs can be dragged, and a vertex is removed by Ctrl-click or Delete. All of this works with the
-    keyboard too: L, F, H and B choose the mode, Enter shows a cursor, the arrows move it, and Space puts a vertex at
+    keyboard too: L, F, H, S and B choose the mode, Enter shows a cursor, the arrows move it, and Space puts a vertex at
     it. "?" shows all gestures.
 
     Parameters
@@ -81,7 +83,7 @@ class Picker(WithParts, VBox):
         Picks that are finished and valid; may be set, as an edit that can be undone.
     fixed : (x, z) or None
         A point in the block that is held; may be set.
-    mode : {"look", "fault", "horizon", "block"}
+    mode : {"look", "fault", "horizon", "body", "block"}
     snap : {"off", "peak", "trough", "zero-up", "zero-down"}
         The event that vertices of horizons snap to.
     window : float

@@ -678,7 +678,7 @@ def test_horizons_of_one_name_are_one(drawn):
         (lambda p: p.rename("fault", "F1", " "), sw.PickError, "must not be empty"),
         (lambda p: p.recolour("fault", "F1", "red;x:1"), sw.SettingError, "colour must be #rrggbb"),
         (lambda p: p.delete("horizon", "F1"), sw.PickError, "no horizon called 'F1'"),
-        (lambda p: p.enter("draw"), sw.SettingError, "mode must be one of look, fault, horizon, block"),
+        (lambda p: p.enter("draw"), sw.SettingError, "mode must be one of look, fault, horizon, body, block"),
     ],
 )
 def test_what_cannot_be(drawn, change, error, message):
@@ -991,3 +991,33 @@ def test_random_gestures_from_nothing(actions):
 def test_random_gestures_on_a_drawing(actions, mode):
     snap = lambda point: snap_to_event(SECTION, point, "peak", 3)  # noqa: E731
     random_gestures([(Key, mode, frozenset()), *actions], PICKS, snap=snap)
+
+
+def test_a_body_is_drawn_closed_and_edited_like_other_picks(editor):
+    corners = [(100.0, 200.0), (200.0, 200.0), (200.0, 300.0), (100.0, 300.0)]
+    keys(editor, "s")
+    for point in corners[:2]:
+        click(editor, point)
+    keys(editor, "Enter")
+    assert editor.drawing.draft  # a body of two points is none yet
+    for point in corners[2:]:
+        click(editor, point)
+    keys(editor, "Enter")
+    (body,) = editor.interpretation.bodies
+    assert (body.name, body.kind) == ("B1", "salt")
+    np.testing.assert_array_equal(body.points, corners)
+    drag(editor, (100.0, 250.0), (60.0, 260.0), (50.0, 250.0))  # on the side that closes it
+    np.testing.assert_array_equal(editor.interpretation.bodies[0].points, [*corners, (50.0, 250.0)])
+    editor.body_kind("body", "B1", "no data")
+    assert editor.interpretation.bodies[0].kind == "no data"
+    editor.use("body", "B1", "ignore")
+    assert editor.interpretation.bodies == ()
+    for _ in range(3):
+        editor.undo()
+    np.testing.assert_array_equal(editor.interpretation.bodies[0].points, corners)
+
+
+def test_a_body_that_crosses_itself_is_a_problem(editor):
+    picks = Drawing().with_pick("body", "B1", [[(0, 0), (90, 90), (0, 90), (90, 0)]])
+    assert picks.interpretation.bodies == ()
+    assert [name for name, _ in picks.problems] == ["B1"]

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+import shapely
 
 import seiswidgets as sw
-from seiswidgets.interaction.projection import PaneProjection
+from seiswidgets.interaction.projection import PaneProjection, side_of
 from seiswidgets.interaction.viewport import Viewport
 
 
@@ -21,14 +22,14 @@ def projection(case):
 def test_the_original_is_seen_as_it_is(case):
     projection = PaneProjection(Viewport(case.section))
     line = case.interpretation.faults[0].points
-    np.testing.assert_array_equal(projection.lines([(line, True)])[0], line)
+    np.testing.assert_array_equal(projection.lines([(line, 1)])[0], line)
     np.testing.assert_array_equal(projection.path(line[0], line[-1])[0], line[[0, -1]])
     assert projection.to_original(line[0]) == tuple(line[0])
 
 
 def test_a_line_is_shown_where_its_points_are_restored_to(case, projection):
     line = case.interpretation.horizons[0].pieces[0][:2]
-    (shown,) = projection.lines([(line, False)])
+    (shown,) = projection.lines([(line, 0)])
     shown = shown[np.isfinite(shown).all(axis=1)]
     ways = np.linspace(0.02, 0.98, 50)[:, None]
     there = projection.to_pane(line[0] + ways * (line[1] - line[0]))
@@ -38,20 +39,20 @@ def test_a_line_is_shown_where_its_points_are_restored_to(case, projection):
 def test_a_line_across_a_fault_is_interrupted_there(case, projection):
     x_min, x_max, z_min, z_max = case.section.extent
     level = (z_min + z_max) / 2
-    (shown,) = projection.lines([([(x_min, level), (x_max, level)], False)])
+    (shown,) = projection.lines([([(x_min, level), (x_max, level)], 0)])
     assert np.isnan(shown).all(axis=1).sum() == 2  # one in between and one at the end
 
 
 def test_a_fault_is_shown_whole_on_one_of_its_sides(case, projection):
     fault = case.interpretation.faults[0].points
-    (shown,), (vertices,) = projection.lines([(fault, True)]), projection.vertices([(fault, True)])
+    (shown,), (vertices,) = projection.lines([(fault, 1)]), projection.vertices([(fault, 1)])
     assert np.isnan(shown).all(axis=1).sum() == 1
     np.testing.assert_allclose(vertices[0], shown[0], atol=1e-6)
     np.testing.assert_allclose(vertices[-1], shown[-2], atol=1e-6)
 
 
 def test_many_lines_at_once_are_shown_as_each_alone(case, projection):
-    lines = [(piece, False) for horizon in case.interpretation.horizons for piece in horizon.pieces]
+    lines = [(piece, 0) for horizon in case.interpretation.horizons for piece in horizon.pieces]
     for together, line in zip(projection.lines(lines), lines, strict=True):
         np.testing.assert_array_equal(together, projection.lines([line])[0])
     assert projection.lines([]) == projection.vertices([]) == []
@@ -67,3 +68,17 @@ def test_a_path_and_its_way_back_are_the_straight_line(case, projection):
     back = projection.to_pane(np.concatenate(runs))
     assert np.isfinite(back).all()
     np.testing.assert_allclose(back[:, 1], start[1], atol=0.2 * case.section.dz)
+
+
+def test_a_body_is_shown_with_the_rock_around_it(case):
+    """Its border moves with the rock outside, whichever way round it was drawn."""
+    corners = [(700.0, 1200.0), (1000.0, 1150.0), (1100.0, 1500.0), (800.0, 1600.0)]
+    body = sw.Body(corners, name="B1")
+    restored = sw.Restoration(case.section, spacing=120, bodies=[body]).flatten(case.interpretation.horizons[0])
+    (border,) = restored.carried(body)
+    projection = PaneProjection(Viewport(restored.section), restored)
+    for points in (corners, corners[::-1]):
+        (shown,) = projection.lines([([*points, points[0]], side_of("body", points))])
+        rows = shown[np.isfinite(shown).all(axis=1)]
+        assert len(rows) >= len(corners)
+        assert shapely.LineString(border).distance(shapely.points(rows)).max() < 1

@@ -7,18 +7,20 @@ from ipywidgets import HTML, Button, ColorPicker, Dropdown, HBox, Layout, Text, 
 from traitlets import Bunch
 
 from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.geology.bodies import BODY, KINDS
 from seiswidgets.geology.picks import FAULT, HORIZON, USES
 from seiswidgets.interaction.drawing import Pick
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.widgets.messages import TROUBLE
 from seiswidgets.widgets.severity import remark
 
-TITLES = {FAULT: "Faults", HORIZON: "Horizons"}
+TITLES = {FAULT: "Faults", HORIZON: "Horizons", BODY: "Bodies"}
 USE_TOOLTIPS = {
     FAULT: "constrain: blocks slide along it; carry: it moves with the rock and cuts nothing; ignore: it is left out",
     HORIZON: "constrain: it is matched across faults; carry: it only moves with the rock; ignore: it is left out",
+    BODY: "a hole in the mesh: salt, or an area without data",
 }
-NONE_YET = " <i>none yet: choose {} and click along one</i>"
+NONE_YET = " <i>none yet: choose {} and click {} one</i>"
 NARROW = {"width": "34px", "min_width": "34px", "padding": "0"}  # not a Layout, which all apps would share
 
 
@@ -37,7 +39,7 @@ class PicksList(VBox):
 
     def __init__(self, editor: PickEditor, changed: Callable[[], None]):
         self.editor, self._changed = editor, changed
-        self._rows: dict[str, list[PickRow]] = {FAULT: [], HORIZON: []}
+        self._rows: dict[str, list[PickRow]] = {kind: [] for kind in TITLES}
         self._titles = {kind: HTML() for kind in TITLES}
         super().__init__()
         self.update({})
@@ -47,10 +49,11 @@ class PicksList(VBox):
         children: list[Widget] = []
         for kind, rows in self._rows.items():
             picks = [pick for pick in self.editor.drawing.picks if pick.kind == kind]
-            rows.extend(PickRow(self) for _ in range(len(picks) - len(rows)))
+            rows.extend(PickRow(self, kind) for _ in range(len(picks) - len(rows)))
             for row, pick in zip(rows, picks, strict=False):
                 row.update(pick, self.is_selected(pick), complaints.get(pick.name))
-            self._titles[kind].value = f"<b>{TITLES[kind]}</b>" + ("" if picks else NONE_YET.format(kind.title()))
+            none = NONE_YET.format(kind.title(), "around" if kind == BODY else "along")
+            self._titles[kind].value = f"<b>{TITLES[kind]}</b>" + ("" if picks else none)
             children += [self._titles[kind], *rows[: len(picks)]]
         if tuple(children) != self.children:
             self.children = tuple(children)
@@ -86,13 +89,13 @@ class PickRow(VBox):
         The worst finding about it, or an error.
     """
 
-    def __init__(self, owner: PicksList):
-        self._owner, self._pick = owner, Pick(FAULT, "", (), "")
+    def __init__(self, owner: PicksList, kind: str):
+        self._owner, self._pick = owner, Pick(kind, "", (), "")
         self.select = ToggleButton(icon="crosshairs", layout=NARROW)
         self.colour = ColorPicker(concise=True, layout=Layout(width="32px", min_width="32px"))
         self.visible = ToggleButton(icon="eye", layout=NARROW)
         self.name = Text(continuous_update=False, layout=Layout(flex="1 1 auto", width="auto", min_width="60px"))
-        self.use = Dropdown(options=USES, layout=Layout(width="92px", flex="0 0 auto"))
+        self.use = Dropdown(options=KINDS if kind == BODY else USES, layout=Layout(width="92px", flex="0 0 auto"))
         self.delete = Button(icon="trash", layout=NARROW)
         self.message = HTML(layout=Layout(display="none"))
         line = HBox([self.select, self.colour, self.visible, self.name, self.use, self.delete])
@@ -108,7 +111,7 @@ class PickRow(VBox):
         """Show a pick, whether it is selected, and its complaint."""
         self._pick = pick  # first, so that the controls that show it see no difference and make no edit
         self.name.value, self.visible.value, self.select.value = pick.name, pick.visible, selected
-        self.colour.value, self.use.value = pick.colour, pick.use
+        self.colour.value, self.use.value = pick.colour, _shown_use(pick)
         self.visible.icon = "eye" if pick.visible else "eye-slash"
         action = "hide" if pick.visible else "show"
         piece = "; the next line drawn becomes a piece of it" if pick.kind == HORIZON else ""
@@ -146,5 +149,11 @@ class PickRow(VBox):
             self._edit(self._owner.editor.rename, change.new)
 
     def _take_use(self, change: Bunch) -> None:
-        if change.new != self._pick.use:
-            self._edit(self._owner.editor.use, change.new)
+        if change.new != _shown_use(self._pick):
+            editor = self._owner.editor
+            self._edit(editor.body_kind if self._pick.kind == BODY else editor.use, change.new)
+
+
+def _shown_use(pick: Pick) -> str:
+    """The use of a line, or the kind of a body."""
+    return pick.body if pick.kind == BODY else pick.use
