@@ -14,7 +14,7 @@ from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.term import MOVING, Layer, PaperTerm
 from seiswidgets.core.terms import coordinates, sparse_rows
 
-RETURNED = 0.1  # of a segment's length
+RETURNED, HALF = 0.1, 0.5  # of a segment's length
 BEYOND = 1e-6  # weight of the distance beyond a segment's end: of two at the same corner the less overshot is nearer
 
 
@@ -105,10 +105,11 @@ class Contact(PaperTerm):
             kept = eligible & (past[np.arange(len(nearest)), self.partner] < stay)
             nearest = np.where(kept, self.partner, nearest)
         foot, ends = along[np.arange(len(nearest)), nearest], self._open[nearest]
-        margin = np.where(
-            np.isin(self.segments[nearest], self.continued), 0, np.broadcast_to(stay, foot.shape)[:, None]
-        )
-        reach = margin + 1e-9  # none where another fault goes on: rock would sink into it
+        stay = np.broadcast_to(stay, foot.shape)
+        # where another fault goes on, rock would sink into it: no margin, or one inwards for a point that is held there
+        inwards = np.where(self.partner >= self.own, -np.minimum(stay, HALF), 0) if self._chosen else 0 * stay
+        continued = np.isin(self.segments[nearest], self.continued)
+        reach = np.where(continued, inwards[:, None], stay[:, None]) + 1e-9
         first, last = ends[:, 0] & (foot < -reach[:, 0]), ends[:, 1] & (foot > 1 + reach[:, 1])
         end = np.where(first, self.segments[nearest, 0], np.where(last, self.segments[nearest, 1], -1))
         return np.where(end < 0, nearest, -1), end
