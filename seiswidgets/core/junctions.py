@@ -61,8 +61,8 @@ def continuations(
 ) -> list[tuple[Continuation, Continuation]]:
     """The sides of other faults that each side of each fault may slide onto, where faults meet.
 
-    Rock that slides down a thrust's ramp comes to lie on the floor that the ramp branches off. The ramp ends there, so
-    contact with its own footwall does not hold the rock any longer; contact with the floor does.
+    Rock that slides down a thrust's ramp reaches the floor that the ramp branches off. The ramp ends there, so contact
+    with its own footwall does not hold the rock any longer; contact with the floor does.
 
     Parameters
     ----------
