@@ -73,6 +73,7 @@ ANSWERS = {
         ("68°", {"32": "true proportions", "128": "No fault is steeper", "9": "pressed flat"}),
         ("71", {"58": "milliseconds for metres", "80": "there and back", "19": "with the vertical"}),
         ("31.7", {"63.4": "take half", "17.6": "number of milliseconds", "9.8": "more metres"}),
+        ("20.8 m", {"26.8": "That is the heave", "6.6": "how much of the heave closed", "1.6": "too small"}),
         (
             "throw in metres",
             {

@@ -67,6 +67,24 @@ def throw_in_metres(throw: float, velocity: float) -> Number:
     )
 
 
+def bed_made(made: float, heave: float, closed: float) -> Number:
+    """How much bed (m) unfaulting added to a horizon, beside the heave of its fault and what closed of it (m)."""
+    return Number(
+        "The report gives the change of lower's bed length in percent, relative to the bed before unfaulting. Write a "
+        "line of code with bed_length(f3, unfaulted_lower): by how many metres did unfaulting lengthen the bed?",
+        made,
+        "m",
+        1.0,
+        f"The heave is {heave:.1f} m and {closed:.1f} m of it closed; nearly all of the rest is bed that the "
+        "restoration added. A bed that grows is a reason to doubt the picks.",
+        (
+            (heave, "That is the heave. How much longer did the bed itself become?"),
+            (closed, "That is how much of the heave closed. The question is about what did not."),
+        ),
+        "Let L be the length after unfaulting and p the change: the length before was L / (1 + p).",
+    )
+
+
 def what_hangs_on_velocity(numbers: dict[float, dict[str, float]]) -> Choice:
     """Which number follows the velocity, from the numbers found at each velocity."""
 
@@ -81,7 +99,8 @@ def what_hangs_on_velocity(numbers: dict[float, dict[str, float]]) -> Choice:
         "deformation": f"It grows by {change('deformation') - 1:.0%} while the velocity doubles: not in proportion.",
         "none of them": "Look at the figure: one of its lines goes up as steeply as the velocity does.",
     }
-    answer = max(next(iter(numbers.values())), key=change)
+    doubled = max(numbers) / min(numbers)
+    answer = min(next(iter(numbers.values())), key=lambda name: abs(change(name) - doubled))
     return Choice(
         "Which of these grows in proportion to the velocity that you choose?",
         answer,
