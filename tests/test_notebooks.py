@@ -8,8 +8,11 @@ import nbformat
 import pytest
 
 from tests.exercise_answers import ANSWERS
+from tests.sections import real_section
 
-NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("[0-9]*.ipynb"))
+ROOT = Path(__file__).parents[1]
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("[0-9]*.ipynb"))
+DRAWS = ("plt", "plot", "questions")
 
 
 def cells(path, kind):
@@ -41,3 +44,34 @@ def test_sections_are_numbered_from_one(path):
     numbers = re.findall(r"^## (\d+)\.", "\n".join(cells(path, "markdown")), re.MULTILINE)
     assert numbers
     assert [int(number) for number in numbers] == [*range(1, len(numbers) + 1)]
+
+
+def computed(path):
+    """The variables of a notebook after its imports, functions and assignments, without figures and exercises."""
+    kept = [
+        statement
+        for statement in ast.parse("\n".join(cells(path, "code"))).body
+        if isinstance(statement, ast.Import | ast.ImportFrom | ast.FunctionDef | ast.Assign)
+        and not any(word in ast.unparse(statement) for word in DRAWS)
+    ]
+    variables = {}
+    exec(compile(ast.Module(kept, []), path.name, "exec"), variables)
+    return variables
+
+
+def test_the_readme_gives_the_figures_of_the_real_sections():
+    real_section("teapot")  # skips where there are no data
+    found = computed(next(path for path in NOTEBOOKS if path.stem == "06_real_sections"))
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    said = re.search(
+        r"real sections of the notebook converge in (\d+) or (\d+) iterations per stage and leave their cut-offs at "
+        r"most ([\d.]+) m apart; the correlation across their three faults rises from (.+?), (.+?) and (.+?) to (.+?), "
+        r"(.+?) and (.+?)\. ",
+        readme,
+    )
+    fewest, most, misfit, *correlations = map(float, said.groups())
+    for restored in (found["restored_teapot"], found["restored_f3"]):
+        assert all(fewest <= stage.report.iterations <= most for stage in restored.stages)
+    assert found["misfit"] == pytest.approx(misfit, abs=0.01)
+    before, after = zip(*found["correlation"].values(), strict=True)
+    assert [*before, *after] == pytest.approx(correlations, abs=0.01)
