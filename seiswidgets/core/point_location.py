@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from seiswidgets.core.mesh import triangle_areas
 
-TOLERANCE = 1e-5  # distance outside that still counts as inside, in triangles, grid cells or samples
+TOLERANCE = 5e-5  # distance outside that still counts as inside, in triangles, grid cells or samples
 MOST_CELLS = 1_000_000
 CELLS_ACROSS = 2  # finder cells along the side of a median triangle: more are slower to build and faster to search
 BATCH = 16_384  # points located at a time: they fit the processor's cache

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 import shapely
-from shapely import MultiPolygon, Polygon
+from shapely import LinearRing, MultiPolygon, Polygon
 
 from seiswidgets.core.contact import Contact
 from seiswidgets.core.mesh import Mesh, triangle_areas
@@ -12,6 +12,9 @@ from seiswidgets.core.point_location import TriangleFinder
 
 Seam = tuple[np.ndarray, np.ndarray]
 Positions = dict[int, float]  # along a polyline, in segments, by vertex
+
+# of the width that is closed: the distance of corners that crowd a mesh, and the change that removing one may make
+CROWDED, DEVIATION = 2.5, 2e-3
 
 
 def weld_seams(mesh: Mesh, vertices: np.ndarray, seams: Sequence[Seam]) -> tuple[Mesh, np.ndarray]:
@@ -180,7 +183,27 @@ def outline(
     covered = _remove_specks(covered, (5 * closing) ** 2)
     gaps = shapely.get_parts(closed.difference(covered))
     gaps = gaps[shapely.area(gaps) > (0.1 * closing) ** 2]  # smaller ones are rounding
-    return shapely.union_all([covered, *gaps], grid_size=grid).simplify(1e-5 * closing)
+    whole = shapely.union_all([covered, *gaps], grid_size=grid).simplify(1e-5 * closing)
+    return _remove_crowded_corners(whole, CROWDED * closing, DEVIATION * closing)
+
+
+def _remove_crowded_corners(shape: Polygon | MultiPolygon, reach: float, deviation: float) -> Polygon | MultiPolygon:
+    """Remove corners that lie close to the next one, and that the outline hardly needs: they would crowd a mesh.
+
+    A side that has slid along another often ends a little before or beyond a corner of the other.
+    """
+    needed = set(map(tuple, shapely.get_coordinates(shape.simplify(deviation))))
+
+    def thinned(ring: LinearRing) -> np.ndarray:
+        points = shapely.get_coordinates(ring)[:-1]
+        gaps = np.hypot(*(points - np.roll(points, 1, axis=0)).T)
+        crowded = np.minimum(gaps, np.roll(gaps, -1)) < reach
+        return points[~crowded | [tuple(point) in needed for point in points]]
+
+    parts = [
+        Polygon(thinned(part.exterior), [thinned(ring) for ring in part.interiors]) for part in shapely.get_parts(shape)
+    ]
+    return parts[0] if len(parts) == 1 else MultiPolygon(parts)
 
 
 def new_holes(before: Polygon | MultiPolygon, after: Polygon | MultiPolygon) -> list[Polygon]:

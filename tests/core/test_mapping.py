@@ -5,7 +5,7 @@ from scipy.spatial import Delaunay
 
 from seiswidgets.core.mapping import PiecewiseAffineMap, triangles_at_grid
 from seiswidgets.core.mesh import triangle_areas
-from seiswidgets.core.point_location import TriangleFinder, triangle_at
+from seiswidgets.core.point_location import TOLERANCE, TriangleFinder, triangle_at
 from seiswidgets.core.resampling import resample
 from seiswidgets.core.triangulation import edges_along, triangulate
 
@@ -53,7 +53,7 @@ def test_finder_agrees_with_brute_force(seed):
     points = rng.uniform(low - 0.1 * (high - low), high + 0.1 * (high - low), (3000, 2))
     weights = barycentric(vertices[triangles], points).min(axis=2)
     expected = np.where(weights.max(axis=1) >= 0, weights.argmax(axis=1), -1)
-    clear = np.abs(weights).min(axis=1) > 1e-5
+    clear = np.abs(weights).min(axis=1) > TOLERANCE
     np.testing.assert_array_equal(TriangleFinder(vertices, triangles)(points)[clear], expected[clear])
 
 

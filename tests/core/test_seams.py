@@ -85,6 +85,15 @@ def test_narrow_gaps_are_closed_and_wide_ones_stay():
         assert rock.area >= BOX.area * (1 - 1e-9)
 
 
+def test_an_outline_has_no_corners_that_crowd_a_mesh():
+    mesh, _, (one, _), _ = slid(arc(50.0), lambda points: points)
+    angles = np.arctan2(*(mesh.vertices[one[3]] - CENTRE).T)
+    angle = 1.0003 * abs(angles[1] - angles[0])  # vertices come to lie 2 cm beside those of the other side
+    mesh, vertices, sides, _ = slid(arc(50.0), lambda points: rotated(points, angle, CENTRE))
+    rock = outline(*weld_seams(mesh, vertices, [sides]), closing=0.5)
+    assert np.hypot(*np.diff(shapely.get_coordinates(rock.exterior), axis=0).T).min() > 1
+
+
 def test_new_holes_are_those_that_were_not_there_before():
     square, holed = shapely.box(0, 0, 10, 10), shapely.box(0, 0, 10, 10) - shapely.box(2, 2, 6, 6)
     gaping = holed - shapely.box(8, 4, 9, 6)
