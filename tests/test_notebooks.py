@@ -32,11 +32,14 @@ def test_the_last_cell_states_what_must_hold(path):
     assert any(isinstance(statement, ast.Assert) for statement in last)
 
 
-def test_notebooks_they_name_are_there():
-    prose = " ".join(text for path in NOTEBOOKS for text in cells(path, "markdown"))
-    named = set(re.findall(r"`(\d\d_\w+)`", prose))
-    assert named
-    assert named <= {path.stem for path in NOTEBOOKS}
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_ends_with_links_to_other_notebooks(path):
+    prose = "\n".join(cells(path, "markdown"))
+    assert not re.search(r"`\d\d_\w+`", prose), "name notebooks by links"
+    read_next = re.search(r"Read next(.+?)(?=\n## |\Z)", prose, re.DOTALL)
+    linked = set(re.findall(r"\]\((\d\d_\w+)\.ipynb\)", read_next[1]))
+    assert linked
+    assert linked <= {path.stem for path in NOTEBOOKS} - {path.stem}
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
