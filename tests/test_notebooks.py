@@ -67,7 +67,7 @@ def test_the_readme_gives_the_figures_of_the_real_sections():
     found = computed(next(path for path in NOTEBOOKS if path.stem == "06_real_sections"))
     readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     said = re.search(
-        r"real sections of the notebook converge in (\d+) or (\d+) iterations per stage and leave their cut-offs at "
+        r"06_real_sections.ipynb\) converge in (\d+) or (\d+) iterations per stage and leave their cut-offs at "
         r"most ([\d.]+) m apart; the correlation across their three faults rises from (.+?), (.+?) and (.+?) to (.+?), "
         r"(.+?) and (.+?)\. ",
         readme,
