@@ -185,7 +185,7 @@ def test_a_name_is_shown_as_text_everywhere(open_app):
     far = "sw.Fault([(100.0, 100.0), (150.0, 500.0)], app.interpretation.faults[0].name)"
     screen.ask(f"app.set_trait('interpretation', sw.Interpretation([{far}], app.interpretation.horizons))")
     screen.button("Restore").click()
-    screen.page.get_by_role("alert").get_by_text(NAME).first.wait_for()  # above the panes
+    screen.page.get_by_role("status").get_by_text(NAME).first.wait_for()  # above the panes
     screen.tab("Picks")
     screen.page.get_by_role("note").get_by_text(NAME).locator("visible=true").first.wait_for()  # beside the pick
     assert screen.page.locator("img[src=x]").count() == 0

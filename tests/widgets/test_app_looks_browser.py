@@ -66,7 +66,7 @@ def test_every_state_in_every_look(open_app):
     far = "sw.Interpretation([*drawn.faults, sw.Fault([(100.0, 100.0), (150.0, 500.0)], 'far')], drawn.horizons)"
     screen.ask(f"app.set_trait('interpretation', {far})")
     screen.button("Restore").click()
-    for role in ("alert", "note"):  # above the panes, and beside the pick
-        screen.page.get_by_role(role).get_by_text("'far'").wait_for()
-    look(screen, "error")
+    for role in ("status", "note"):  # above the panes, and beside the pick
+        screen.page.get_by_role(role).get_by_text("far").first.wait_for()
+    look(screen, "finding")
     assert screen.page.eval_on_selector_all("canvas.seiswidgets-plot", OPACITIES) == ["1", "0.5"]

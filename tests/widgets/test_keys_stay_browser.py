@@ -1,8 +1,11 @@
 """Keys pressed in a widget: the notebook around it takes none of them, and they keep their meaning inside."""
 
+from dataclasses import fields
+
 import pytest
 from playwright.sync_api import expect
 
+import seiswidgets as sw
 from tests.widgets.appscreen import EMPTY, FEW, RESTORED, SHOWN
 from tests.widgets.browser import settled
 from tests.widgets.byhand import is_painted
@@ -91,7 +94,7 @@ def open_tab(page, name):
 def test_no_key_in_any_focusable_part_reaches_the_notebook(notebook):
     page = notebook("a = 1", GALLERY, PARTS, "b = 2", height=1200).page
     page.locator(".widget-label").get_by_text("restored", exact=True).first.wait_for()
-    expect(page.locator(".noUi-handle")).to_have_count(9)  # of two timelines and seven weights
+    expect(page.locator(".noUi-handle")).to_have_count(2 + len(fields(sw.Weights)))  # of two timelines and the weights
     page.evaluate("document.activeElement.blur()")
     page.evaluate(LISTEN)
     before, met = page.evaluate(CELLS), {}

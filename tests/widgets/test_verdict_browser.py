@@ -9,11 +9,10 @@ CELL = """
 import seiswidgets as sw
 case = sw.synthetic.planar_fault(throw=150.0)
 picks = case.interpretation
-first, _, third = picks.horizons
-falling = sw.Horizon(first.pieces[0], third.pieces[1], name="falling")
-rising = sw.Horizon(third.pieces[0], first.pieces[1], name="rising")
-bad = sw.Interpretation(picks.faults, [falling, rising])
-app = sw.RestorationApp(case.section, picks, fixed=case.fixed, height=300, steps=(sw.Step("unfault"),))
+(left, right), (low_left, _), (_, low_right) = (horizon.pieces for horizon in picks.horizons)
+bad = sw.Interpretation(picks.faults, [sw.Horizon(left, right, name="A"), sw.Horizon(low_left, low_right, name="B")])
+weights = sw.Weights(stitch=1, slide=0.1)  # stiff rock: no slip matches both beds
+app = sw.RestorationApp(case.section, picks, fixed=case.fixed, height=300, steps=(sw.Step("unfault"),), weights=weights)
 app
 """
 APP = ".jp-OutputArea-output > .widget-vbox"
