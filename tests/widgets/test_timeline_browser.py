@@ -38,8 +38,8 @@ def test_the_slider_keeps_its_place_after_a_reload(notebook):
     handle = opened.page.locator(".noUi-handle")
     handle.wait_for()
     opened.page.get_by_text("unfault 30%").wait_for()
-    expect(handle).to_have_attribute("aria-valuenow", re.compile(r"6(\.0)?"))
+    expect(handle).to_have_attribute("aria-valuenow", re.compile(r"18(\.0)?"))
     handle.focus()
     opened.page.keyboard.press("ArrowRight")
-    opened.until("timeline.time == 7 / 20")
-    opened.until("timeline.play.value == 7")  # Play goes on from there
+    opened.until("timeline.time == 19 / 60")
+    opened.until("timeline.play.value == 19")  # Play goes on from there
