@@ -8,7 +8,6 @@ OUT = """() => [...document.querySelectorAll(".jp-OutputArea-output button, .jp-
   .map((one) => one.textContent)"""
 
 
-
 def look(screen, state):
     """Every look of a state: nothing is cut off by the window, and every pane is painted for the room it has."""
     for dark in (False, True):
