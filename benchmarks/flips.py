@@ -14,6 +14,7 @@ from seiswidgets.core.mesh import triangle_areas
 from tests.cases import SPACING, random_case
 
 CASES = 1000
+QUICK = 12  # iterations
 FIXED_POINT_ITERATIONS = 50  # more take hours; its flips come early
 
 
@@ -25,6 +26,11 @@ def rows():
     yield f"flipped in {CASES:,} random cases / fixed point", ours, theirs, "", "0", "NO" if ours else "yes", 1
     ours, theirs = (sum(stage.get(solver, 0) > 0 for stage in stages) for solver in ("ours", "theirs"))
     yield f"  stages with a flip, of {len(stages):,}", ours, theirs, "", "", "", 1
+    unsettled = sum("not settled" in stage["state"] for stage in stages)
+    yield "  stages of ours that did not settle", unsettled, "", "", "<= 10", "NO" if unsettled > 10 else "yes", 1
+    unfaults = [stage["iterations"] for stage in stages if "iterations" in stage and stage["state"][:7] == "unfault"]
+    slow = np.mean(np.array(unfaults) > QUICK)
+    yield f"  unfaults of over {QUICK} iterations", f"{slow:.1%}", "", "", "<= 5%", "NO" if slow > 0.05 else "yes", 1
     for state in sorted({stage["state"] for stage in stages}):
         seeds = [stage["seed"] for stage in stages if stage["state"] == state]
         yield f"  {state}", len(seeds), " ".join(map(str, seeds[:4])), "", "", "", 1
@@ -47,9 +53,8 @@ def restored(seed):
         state = ("settled" if report.converged else "not settled") + (
             ", with a constraint unmet" if report.unmet else ""
         )
-        stages.append(
-            {"seed": seed, "state": f"{kind}: {state}", "ours": flips(after), "theirs": refused(solve, before)}
-        )
+        outcome = {"seed": seed, "state": f"{kind}: {state}", "iterations": report.iterations}
+        stages.append({**outcome, "ours": flips(after), "theirs": refused(solve, before)})
         before = after
     return stages
 
