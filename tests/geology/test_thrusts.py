@@ -60,7 +60,7 @@ def test_sheets_whose_beds_slip_come_closer(model, nearly_all, all_of_it):
     plan = sw.Plan((sw.Step("unfault"),), weights=sw.Weights(bedding=10), fixed=case.fixed)
     restored = plan.restore(case.section, case.interpretation)
     assert restored.settled
-    assert restored.stages[0].report.iterations <= 12
+    assert restored.stages[0].report.iterations <= 15
     apart = errors(case, restored) / slip
     assert np.median(apart) < 0.05
     assert np.quantile(apart, 0.95) < nearly_all
