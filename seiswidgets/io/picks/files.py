@@ -151,7 +151,8 @@ def write_picks(
 
     GeoJSON and CSV state their units, and `read_picks` returns exactly the same numbers. The formats of other programs
     have positions on a map: OpendTect's horizons are sampled at the traces, and its files hold either horizons or
-    faults; Petrel's points hold both, with Z negative downwards (give ``z_up=True`` to read them again).
+    faults; Petrel's points hold both, with Z negative downwards (give ``z_up=True`` to read them again). Only GeoJSON
+    and CSV hold bodies, and the use and the ends of picks.
 
     Parameters
     ----------
