@@ -13,7 +13,10 @@ from tests.widgets.byhand import draw_faulted_fold, is_of_today, is_painted, is_
 # What Voila's page itself takes from elsewhere, an extension of Jupyter Notebook, where that is installed too, and the
 # page's wish to end its kernel when it is left, which the server refuses; and a message to the kernel from a page that
 # is being left, which its kernel connection refuses.
-FOREIGN = re.compile("https://cdn|@jupyter-notebook/lab-extension|voila/api/shutdown|^Cannot send$")
+FOREIGN = re.compile(
+    "https://cdn|@jupyter-notebook/lab-extension|voila/api/shutdown|^Cannot send$"
+    "|Failed to initialize model"  # anywidget says so of a widget that was closed before its module had loaded
+)
 AXES_SEEN = """() => [...document.querySelectorAll(".seiswidgets-layer .label")].every((label) => {
   const { left, width, top, height } = label.getBoundingClientRect();
   label.style.pointerEvents = "auto";
