@@ -86,7 +86,7 @@ def _redrawn(rng, section, points, steadiness):
 
 
 def outcome(drawing, **options):
-    """What comes of a drawing: a word and its messages; an AssertionError if an answer is wrong or of no help."""
+    """Outcome of a drawing: a word and its messages; an AssertionError if an answer is wrong or of no help."""
     try:
         restored = sw.Plan(fixed=drawing.fixed, **options).restore(drawing.section, drawing.interpretation)
     except sw.SeiswidgetsError as error:

@@ -239,7 +239,7 @@ def test_a_fault_that_cuts_a_bed_twice_has_a_pair_at_each_place(slip, mirrored, 
 
 
 def test_an_end_without_a_partner_is_the_one_that_lies_farthest_from_all():
-    """Of three ends in the hanging wall, two belong to the two in the footwall."""
+    """Two of three ends in the hanging wall belong to the two in the footwall."""
     ends = [350.0, 500.0, 750.0]
     pieces = [np.array([point, (WIDTH, point[1])]) for point in at_depth(*ends)]
     bed = network({"F": fault().points}, *pieces, [(0, 300), at_depth(300)[0]], [(0, 700), at_depth(700)[0]])

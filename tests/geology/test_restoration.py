@@ -290,7 +290,7 @@ def test_an_unfinished_solution_says_so(fold):
 
 
 def test_contradicting_horizons_are_named():
-    """Of two horizons that have changed places across a fault, one is carried; other misfits are in the report."""
+    """One of two horizons that swap order across a fault is carried; other misfits are in the report."""
     case = sw.synthetic.planar_fault()
     picks = case.interpretation
     (left, right), (lower_left, lower_right) = (horizon.pieces for horizon in picks.horizons[:2])

@@ -26,7 +26,7 @@ def new_app(tmp_path, monkeypatch):
 
 
 def is_working(app, section):
-    """Whether the app shows a section, without a start page, and with nothing before it."""
+    """True if the app shows a section, without a start page, and with nothing before it."""
     return (
         app.start_page is None
         and app.panes in app.children
