@@ -1,7 +1,7 @@
 """Areas without beds to restore, such as salt or gaps in the data: holes in the mesh, whose borders are free."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -49,6 +49,10 @@ class Body:
     def __post_init__(self) -> None:
         check_kind(self.name, self.kind)
         object.__setattr__(self, "points", _border(self.points, f"body {self.name!r}", self.name))
+
+    def mapped(self, line_map: Callable[[np.ndarray], np.ndarray]) -> "Body":
+        """Apply a function of lines, shape (n, 2) to (m, 2), to the closed border."""
+        return replace(self, points=line_map(np.vstack([self.points, self.points[:1]])))
 
 
 def check_kind(name: str, kind: str) -> None:

@@ -1,8 +1,8 @@
 """Picks of an interpreter on a section: faults, horizons, and both together."""
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeVar
 
@@ -20,6 +20,7 @@ MISSING = "missing"  # kind of the errors about picks that a step names and that
 AUTO, TIP, EXTEND = "auto", "tip", "extend"  # what happens to an end of a fault
 Ends = tuple[str, str]  # for the first and the last point of a fault
 AUTO_ENDS: Ends = (AUTO, AUTO)
+LineMap = Callable[[np.ndarray], np.ndarray]
 SEGMENTS_AT_ONCE = 64  # of a line, tested together for one that meets an earlier one
 
 
@@ -81,6 +82,10 @@ class Fault:
         """True if blocks slide along it."""
         return self.use == CONSTRAIN and self.flaw is None
 
+    def mapped(self, line_map: LineMap) -> "Fault":
+        """Apply a function of lines, shape (n, 2) to (m, 2)."""
+        return replace(self, points=line_map(self.points))
+
 
 @dataclass(frozen=True, eq=False, init=False)
 class Horizon:
@@ -135,6 +140,10 @@ class Horizon:
         """True if at least one piece is matched across faults."""
         return self.use == CONSTRAIN and None in self.flaws
 
+    def mapped(self, line_map: LineMap) -> "Horizon":
+        """Apply a function of lines, shape (n, 2) to (m, 2), to each piece."""
+        return Horizon(*map(line_map, self.pieces), name=self.name, use=self.use)
+
     def __repr__(self) -> str:
         return f"Horizon({', '.join(f'{len(piece)} points' for piece in self.pieces)}, name={self.name!r})"
 
@@ -162,6 +171,14 @@ class Interpretation:
             repeated = [name for name, count in Counter(pick.name for pick in getattr(self, kind)).items() if count > 1]
             if repeated:
                 raise PickError(f"two {kind} are called {repeated[0]!r}; give each a name of its own", pick=repeated[0])
+
+    def mapped(self, line_map: LineMap) -> "Interpretation":
+        """Apply a function of lines, shape (n, 2) to (m, 2), to all picks."""
+        return Interpretation(
+            [fault.mapped(line_map) for fault in self.faults],
+            [horizon.mapped(line_map) for horizon in self.horizons],
+            [body.mapped(line_map) for body in self.bodies],
+        )
 
     def fault(self, name: str) -> Fault:
         """The fault of that name; PickError if there is none."""

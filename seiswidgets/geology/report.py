@@ -132,6 +132,8 @@ class Report:
     x_unit, z_unit : str
     sample : float
         Height of a sample, in metres.
+    velocity : str
+        Velocities that relate time to depth, and their source; "" for a section that was in depth.
     """
 
     kind: str
@@ -158,6 +160,7 @@ class Report:
     x_unit: str = "m"
     z_unit: str = "m"
     sample: float = 1.0
+    velocity: str = ""
 
     @property
     def unmet(self) -> tuple[str, ...]:
@@ -183,6 +186,7 @@ class Report:
         rows.append(("overlap and gaps", f"{self.overlap:.3g} m² of rock on other rock, {self.gap:.3g} m² of gaps"))
         rows += [(f"body {body.body}", self._body(body)) for body in self.bodies]
         rows += [("motion", self._motion(motion)) for motion in self.motions]
+        rows += [("velocity", self.velocity)] * bool(self.velocity)
         return rows + self._solver_rows()
 
     def _offset(self, cutoff: CutOffReport) -> str:

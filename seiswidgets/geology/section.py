@@ -2,11 +2,17 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seiswidgets.core.resampling import resample
 from seiswidgets.errors import Keyword, SectionError, number_text
+from seiswidgets.geology.depth_conversion import DepthConversion, section_in_depth, section_in_time
+
+if TYPE_CHECKING:  # velocity models import this module
+    from seiswidgets.geology.velocity import Velocity
 
 METRES = {"m": 1.0, "km": 1000.0, "ft": 0.3048}
 SECONDS = {"s": 1.0, "ms": 0.001}
@@ -35,6 +41,8 @@ class Section:
         Seismic (P-wave) velocity, in m/s; for two-way time only.
     name, credit : str
         Title of the section, and the owner of its data; shown with its pictures.
+    conversion : DepthConversion, optional
+        The section in time and the velocities that this one was converted from; see `to_depth`.
 
     Raises
     ------
@@ -52,6 +60,7 @@ class Section:
     velocity: float | None = None
     name: str = ""
     credit: str = ""
+    conversion: DepthConversion | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "amplitude", _validate_amplitude(self.amplitude))
@@ -100,6 +109,11 @@ class Section:
         return self.z_unit in SECONDS
 
     @property
+    def velocity_text(self) -> str:
+        """Text for the velocities that relate time to depth, and their source; "" for a section that was in depth."""
+        return str(self.conversion or "") or (f"{self.velocity:g} m/s throughout" if self.is_time else "")
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Number of samples and of traces, ``(nz, nx)``."""
         nz, nx = self.amplitude.shape
@@ -135,6 +149,68 @@ class Section:
         """Convert points from metres of rock to the section's units; shape (n, 2)."""
         return np.asarray(np.asarray(points, float) / self.metres)
 
+    @property
+    def unit_of_x(self) -> float:
+        """Metres in one unit of x."""
+        return METRES[self.x_unit]
+
+    @property
+    def unit_of_time(self) -> float:
+        """Seconds in one unit of z, which must be a time."""
+        return SECONDS[self.z_unit]
+
+    def to_depth(self, velocity: "Velocity", dz: float | None = None) -> "Section":
+        """Convert a section in two-way time to depth in metres, measured from time zero.
+
+        What is restored from the result is interpolated in the recorded amplitudes, once. Its ``conversion`` carries
+        points and picks between time and depth.
+
+        Parameters
+        ----------
+        velocity : ConstantVelocity, LinearVelocity, TimeDepthTable or LayerCake
+        dz : float, optional
+            Distance between samples, in metres; that of the slowest rock if left out.
+
+        Raises
+        ------
+        SectionError
+            If the section is in depth, or a velocity is not positive somewhere.
+
+        Examples
+        --------
+        >>> import seiswidgets as sw
+        >>> amplitude = [[0, 0], [1, 1], [0, 0]]
+        >>> timed = sw.Section(amplitude, dx=25, dz=4, z_unit="ms", velocity=2000)
+        >>> timed.to_depth(sw.LinearVelocity(v0=1800, k=0.6))
+        <Section: 2 traces x 4 samples, x 0 to 25 m, z 0 to 10.8 m>
+        """
+        return section_in_depth(self, velocity, None if dz is None else _validate_number("dz", dz))
+
+    def to_time(self, velocity: "Velocity | None" = None) -> "Section":
+        """Convert a section in depth to two-way time in milliseconds.
+
+        Parameters
+        ----------
+        velocity : ConstantVelocity, LinearVelocity, TimeDepthTable or LayerCake, optional
+            If left out, the recorded section that this one was converted from.
+
+        Raises
+        ------
+        SectionError
+            If the section is in time, was not converted and no velocity is given, or a velocity is not positive
+            somewhere.
+        """
+        return section_in_time(self, velocity)
+
+    def sampled(self, columns: np.ndarray, rows: np.ndarray, order: int) -> np.ndarray:
+        """Interpolate the recorded amplitudes at positions in traces and samples; shape of ``columns``.
+
+        A converted section is interpolated in the section in time. NaN outside. The order is 1 (linear) or 3 (cubic).
+        """
+        if self.conversion is None:
+            return resample(self.amplitude, columns, rows, order)
+        return self.conversion.sample(columns, self.z0 + self.dz * rows, order)
+
     def contains(self, points: ArrayLike) -> np.ndarray:
         """True for each point on the section, its border included; shape (n,) of bool."""
         x, z = np.asarray(points, float).T
@@ -156,6 +232,7 @@ class Section:
         nz, nx = self.shape
         x_min, x_max, z_min, z_max = map(number_text, self.extent)
         speed = f", {self.velocity:g} m/s" if self.is_time else ""
+        speed += f", {self.conversion}" if self.conversion else ""
         name = f" {self.name!r}" if self.name else ""
         credit = f"\n  data: {self.credit!r}" if self.credit else ""
         return (

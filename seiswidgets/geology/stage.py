@@ -183,6 +183,7 @@ class Stage:
             x_unit=self.domain.section.x_unit,
             z_unit=self.domain.section.z_unit,
             sample=self.domain.sample,
+            velocity=self.domain.section.velocity_text,
         )
 
     def with_notes(self, *notes: Finding) -> "Stage":

@@ -9,7 +9,6 @@ import shapely
 from numpy.typing import ArrayLike
 from shapely import LineString
 
-from seiswidgets.core.resampling import resample
 from seiswidgets.errors import PickError
 from seiswidgets.geology import validation
 from seiswidgets.geology.bodies import Body, body_polygons
@@ -138,11 +137,12 @@ def picture(original: Section, stages: Sequence[Stage], order: int, cells: int |
     columns, rows = _origins(original, stages, x, z) if stages else np.meshgrid(x, z)
     return replace(
         original,
-        amplitude=resample(original.amplitude, columns, rows, order),
+        amplitude=original.sampled(np.asarray(columns), np.asarray(rows), order),
         x0=original.x0 + original.dx * x[0],
         z0=original.z0 + original.dz * z[0],
         dx=original.dx * step,
         dz=original.dz * step,
+        conversion=None,
     )
 
 

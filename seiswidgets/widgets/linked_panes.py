@@ -65,6 +65,10 @@ class Reading:
             for name, (x, z) in (("present day", self.original), ("restored", self.restored))
             if np.isfinite((x, z)).all()
         ]
+        if section.conversion and np.isfinite(self.original).all():
+            recorded = section.conversion.time_section
+            time = section.conversion.to_time(self.original)[1]
+            parts.insert(1, f"recorded at two-way time {time:.6g} {recorded.z_unit}")
         if np.isfinite(self.amplitude):
             parts.append(f"amplitude {self.amplitude:.3g}")
         if np.isfinite(self.ratio):

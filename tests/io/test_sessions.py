@@ -92,6 +92,35 @@ def test_a_line_of_a_volume_is_opened_again_with_its_choices(tmp_path):
     np.testing.assert_array_equal(again.amplitude, section.amplitude)
 
 
+@pytest.mark.parametrize(
+    "velocity",
+    [
+        sw.ConstantVelocity(2200),
+        sw.LinearVelocity(1800, 0.6, source="regional trend"),
+        sw.TimeDepthTable([0, 900], [0, 1000], source="well 1"),
+        sw.LayerCake([sw.Horizon([(0, 300), (4000, 350)], name="top")], [1800, 2600]),
+    ],
+    ids=str,
+)
+def test_the_velocities_of_a_converted_section_are_saved(tmp_path, velocity):
+    recorded = sw.synthetic.tilt().section.to_time(sw.ConstantVelocity(2000))
+    sw.save_section(recorded, tmp_path / "line.npz")
+    source = sw.SectionSource("file", str(tmp_path / "line.npz"), velocity=velocity, dz=6.0)
+    section = source.open()
+    sw.Session.of(section, source, sw.Interpretation()).save(tmp_path / "session.json")
+    again = sw.open_session(tmp_path / "session.json").open_section()
+    np.testing.assert_array_equal(again.amplitude, section.amplitude)
+    assert again.velocity_text == section.velocity_text
+
+
+def test_damaged_velocities_are_refused_with_their_location(tmp_path, saved):
+    path, text = saved
+    text["section"]["source"]["velocity"] = {"model": "linear", "v0": 1800}
+    path.write_text(json.dumps(text))
+    with pytest.raises(sw.DataError, match=r"section\.source\.velocity lacks 'k'"):
+        sw.open_session(path)
+
+
 def test_it_gives_the_same_restoration(case, saved):
     restored = PLAN.restore(case.section, case.interpretation, case.fixed)
     assert_same(restored, sw.open_session(saved[0]).restore())

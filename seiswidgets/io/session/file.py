@@ -17,6 +17,7 @@ from seiswidgets.geology.weights import Weights
 from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
 from seiswidgets.io.session.saved_picks import SavedPick
 from seiswidgets.io.session.sources import FILE, SectionSource, relative_path, section_path
+from seiswidgets.io.session.velocities import read_velocity, velocity_as_json
 
 if TYPE_CHECKING:
     from seiswidgets.io.session.session import Session
@@ -72,6 +73,8 @@ def session_document(session: "Session", path: Path) -> dict[str, Any]:
         if source.kind == FILE
         else {"name": source.name, "arguments": dict(source.choices)}
     )
+    if source.velocity is not None:
+        origin |= {"velocity": velocity_as_json(source.velocity), "dz": source.dz}
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -160,12 +163,14 @@ def _build(
 
 def _source(entry: Entry, allow_outside: bool) -> SectionSource:
     kind = entry["kind"].text()
-    if kind != FILE:
-        arguments = entry.optional("arguments", _choices, {})
-        return _build(entry, SectionSource, kind, entry["name"].text(), arguments)
-    path = entry["path"]
-    name = _build(path, section_path, _folder(path.path), path.text(), allow_outside)
-    return _build(entry, SectionSource, FILE, str(name), entry.optional("choices", _choices, {}))
+    if kind == FILE:
+        path = entry["path"]
+        name = str(_build(path, section_path, _folder(path.path), path.text(), allow_outside))
+    else:
+        name = entry["name"].text()
+    choices = entry.optional("choices" if kind == FILE else "arguments", _choices, {})
+    velocity = entry.optional("velocity", lambda model: _build(model, read_velocity, model), None)
+    return _build(entry, SectionSource, kind, name, choices, velocity, entry.optional("dz", Entry.number, None))
 
 
 def _choices(entry: Entry) -> dict[str, object]:

@@ -19,6 +19,7 @@ from seiswidgets.geology import synthetic
 from seiswidgets.geology.kinematics import Survey
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import checked_kind
+from seiswidgets.geology.velocity import Velocity
 from seiswidgets.io import datasets
 from seiswidgets.io.files import user_path
 from seiswidgets.io.opening import open_section
@@ -42,6 +43,10 @@ class SectionSource:
         Path of the file, or name of a function of `synthetic` or `datasets`.
     choices : dict, optional
         Keywords that it is opened or made with: numbers, strings, True, False, None, slices, ranges, lists and dicts.
+    velocity : velocity model, optional
+        With it, a section in time is converted to depth.
+    dz : float, optional
+        Distance between the samples in depth, in metres.
 
     Raises
     ------
@@ -54,6 +59,8 @@ class SectionSource:
     kind: str
     name: str
     choices: Mapping[str, Any] = field(default_factory=dict)
+    velocity: Velocity | None = None
+    dz: float | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in (FILE, *NAMES):
@@ -75,13 +82,17 @@ class SectionSource:
         return {name: revived(value) for name, value in self.choices.items()}
 
     def open(self) -> Section:
-        """Open or make the section.
+        """Open or make the section, and convert it to depth if there are velocities.
 
         Raises
         ------
-        DataError, SettingError
+        DataError, SettingError, SectionError
             If it cannot be opened, or not with these choices.
         """
+        section = self._open_as_recorded()
+        return section if self.velocity is None else section.to_depth(self.velocity, self.dz)
+
+    def _open_as_recorded(self) -> Section:
         if self.kind == FILE:
             return self._call(partial(open_section, Path(self.name)))
         if self.kind == DATASET:

@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -332,7 +333,11 @@ def _to_save(document: Document, sha256: str, path: Path) -> Session | SessionWi
     """Session of a document under a path; a section without a source is saved beside it."""
     if document.source is not None:
         return session_of(document, document.source, sha256)
-    return SessionWithSection(session_of(document, source_beside(path, sha256), sha256), document.section)
+    source, recorded = source_beside(path, sha256), document.section
+    if recorded.conversion:
+        source = replace(source, velocity=recorded.conversion.velocity, dz=recorded.dz)
+        recorded = recorded.to_time()
+    return SessionWithSection(session_of(document, source, sha256), recorded)
 
 
 def session_of(document: Document, source: SectionSource, sha256: str) -> Session:
