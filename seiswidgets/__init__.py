@@ -23,6 +23,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.bodies": ["Body"],
         "geology.checking": ["check"],
         "geology.cutoffs": ["CutOff", "cutoffs", "heave", "throw"],
+        "geology.depth_conversion": ["DepthConversion"],
         "geology.findings": ["Finding"],
         "geology.correlation": ["cross_fault_correlation", "likeness"],
         "geology.picks": ["Fault", "Horizon", "Interpretation"],

@@ -181,8 +181,8 @@ class Section:
         >>> import seiswidgets as sw
         >>> amplitude = [[0, 0], [1, 1], [0, 0]]
         >>> timed = sw.Section(amplitude, dx=25, dz=4, z_unit="ms", velocity=2000)
-        >>> timed.to_depth(sw.LinearVelocity(v0=1800, k=0.6))
-        <Section: 2 traces x 4 samples, x 0 to 25 m, z 0 to 10.8 m>
+        >>> timed.to_depth(sw.LinearVelocity(v0=1800, k=0.6)).z.round(2)
+        array([ 0.  ,  3.6 ,  7.2 , 10.81])
         """
         return section_in_depth(self, velocity, None if dz is None else _validate_number("dz", dz))
 
