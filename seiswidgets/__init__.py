@@ -31,6 +31,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.report": ["Report"],
         "geology.restoration": ["Restoration"],
         "geology.section": ["Section"],
+        "geology.slip_profile": ["SlipProfile"],
         "geology.stage": ["Stage"],
         "geology.velocity": ["ConstantVelocity", "LayerCake", "LinearVelocity", "TimeDepthTable"],
         "geology.weights": ["Weights"],

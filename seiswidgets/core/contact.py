@@ -232,7 +232,7 @@ def contacts(
     beyond : pair of Continuation
         For points of the first and of the second side.
     """
-    bulge = _bulge(mesh.vertices[sides[0]], line)
+    bulge = bulges_of(mesh.vertices[sides[0]], line)
 
     def contact(side: np.ndarray, other: np.ndarray, beyond: Continuation) -> Contact:
         points = np.setdiff1d(side, other)  # a tip belongs to both sides
@@ -243,7 +243,7 @@ def contacts(
     return contact(sides[0], sides[1], beyond[0]), contact(sides[1], sides[0], beyond[1])
 
 
-def _bulge(ends: np.ndarray, line: LineString) -> np.ndarray:
+def bulges_of(ends: np.ndarray, line: LineString) -> np.ndarray:
     """Parabolas over chords of a curve, through its point halfway between their ends; (s, 2, 2) to shape (s, 3)."""
     arc_lengths = shapely.line_locate_point(line, shapely.points(ends)).mean(axis=1)
     arms, middles = ends[:, 1] - ends[:, 0], ends.mean(axis=1)

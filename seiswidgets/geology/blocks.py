@@ -1,7 +1,8 @@
 """Meshing of a section that is cut into blocks: faults, horizons, and the vertices at which they meet."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -17,10 +18,14 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_curves import meshed_parts
 from seiswidgets.geology.fault_lines import NO_ENDS, fault_lines, settle_tips
 from seiswidgets.geology.picks import FAULT, HORIZON, TIP, Ends
+from seiswidgets.geology.prescribed_slip import FaultSides
 from seiswidgets.geology.segments import horizon_segments, segments_beside
 from seiswidgets.geology.shared_stretches import continue_along, follow
+from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.solve import reusable_setup
 from seiswidgets.geology.stage import Stage
+
+NO_PROFILES: Mapping[str, SlipProfile] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +53,10 @@ class Blocks:
         Everything that shaped the mesh.
     ends : dict of str to pair of str
         See `Fault.ends`.
+    drawn : dict of str to array, shape (n, 2)
+        The points of each fault before it was extended.
+    profiles : dict of str to SlipProfile
+        Prescribed slip, by fault.
     """
 
     cut: Cut
@@ -61,6 +70,8 @@ class Blocks:
     boundaries: tuple[LineString, ...]
     fingerprint: tuple
     ends: Mapping[str, Ends]
+    drawn: Mapping[str, np.ndarray]
+    profiles: Mapping[str, SlipProfile] = field(default_factory=dict)
 
     @property
     def mesh(self) -> Mesh:
@@ -80,7 +91,22 @@ class Blocks:
         """For each fault the points between its pairs of cut-offs, and the distance of each pair, in metres."""
         ends = self.mesh.vertices[self.stitches]
         rows = np.column_stack([ends.mean(axis=1), np.hypot(*(ends[:, 0] - ends[:, 1]).T)])
-        return {name: rows[[pair.fault == name for pair in self.cutoffs]] for name in self.network.faults}
+        slips = {name: rows[[pair.fault == name for pair in self.cutoffs]] for name in self.network.faults}
+        return slips | {name: sides.rows for name, sides in self.prescribed.items()}
+
+    @cached_property
+    def prescribed(self) -> dict[str, FaultSides]:
+        """The sides of the faults whose slip is prescribed."""
+        return {
+            name: FaultSides.of(name, profile, self.mesh, self.sides[name], self.lines[name], self.drawn[name])
+            for name, profile in self.profiles.items()
+        }
+
+    @cached_property
+    def stitched(self) -> np.ndarray:
+        """The pairs of cut-offs to be brought together: none at a blind tip, or where the slip is prescribed."""
+        free = np.array([pair.fault not in self.profiles for pair in self.cutoffs], bool)
+        return self.stitches[free & (self.stitches[:, 0] != self.stitches[:, 1])]
 
 
 def mesh_blocks(
@@ -90,8 +116,11 @@ def mesh_blocks(
     boundaries: Mapping[str, np.ndarray],
     ends: Mapping[str, Ends] = NO_ENDS,
     start: Stage | None = None,
+    profiles: Mapping[str, SlipProfile] = NO_PROFILES,
 ) -> Blocks:
     """Match faults and horizons, and mesh them; an earlier stage's set-up is reused if it is identical.
+
+    A fault with a slip profile needs no horizon.
 
     Raises
     ------
@@ -100,9 +129,11 @@ def mesh_blocks(
     """
     others = [LineString(points) for points in boundaries.values()]
     drawn = {name: [LineString(points)] for name, points in faults.items()}
-    fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends
+    profiles = {name: profile for name, profile in profiles.items() if name in faults}
+    fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends, tuple(profiles)
     earlier = reusable_setup(start, Blocks, fingerprint)
-    return earlier or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends)
+    blocks = earlier or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends, tuple(profiles))
+    return replace(blocks, profiles=profiles)
 
 
 def _mesh_blocks(
@@ -112,12 +143,13 @@ def _mesh_blocks(
     boundaries: Sequence[LineString],
     fingerprint: tuple,
     ends: Mapping[str, Ends],
+    prescribed: Collection[str],
 ) -> Blocks:
     curves = fault_lines(faults, domain, ends, boundaries)
     boundaries = [follow(line, curves.values(), domain.sample) for line in boundaries]
     laid = {name: [domain.on_border(piece) for piece in pieces] for name, pieces in horizons.items()}
     network = _network(curves, laid, boundaries, domain)
-    cutoffs = network.cutoffs()
+    cutoffs = network.cutoffs(prescribed)
     cuts = {name: _drawn_on(name, network.faults, boundaries, ends) for name in network.faults}
     lines = {name: meshed_parts(name, cuts, network.ends_at(name), domain) for name in cuts}
     bed_lines = {
@@ -137,9 +169,9 @@ def _mesh_blocks(
     sides = {name: cut.sides(along) for name, along in edges.items()}
     _check_meshed(cutoffs, beds, network)
     beyond = continuations(whole.vertices, list(edges.values()), list(sides.values()))
-    return Blocks(
-        cut, cuts, sides, beyond, network, cutoffs, _stitches(cutoffs, beds), beds, tuple(boundaries), fingerprint, ends
-    )
+    stitches = _stitches(cutoffs, beds)
+    fixed = tuple(boundaries)
+    return Blocks(cut, cuts, sides, beyond, network, cutoffs, stitches, beds, fixed, fingerprint, ends, faults)
 
 
 def _network(
@@ -213,4 +245,4 @@ def _stitches(cutoffs: Sequence[CutOffPair], beds: Mapping[str, list[np.ndarray]
         [beds[pair.horizon][index][which, which] for index, which in (pair.hanging_wall, pair.footwall)]
         for pair in cutoffs
     ]
-    return np.array(ends, dtype=int)
+    return np.array(ends, dtype=int).reshape(-1, 2)

@@ -74,7 +74,7 @@ def _check_flattening(start: Restoration, horizon: Horizon) -> Sequence[Finding]
 
 def _check_unfaulting(start: Restoration, job: RestorationJob, step: Step) -> Sequence[Finding]:
     def mesh(lines: Lines, beds: Beds, walls: Lines, ends: EndsOfFaults) -> Blocks:
-        return mesh_blocks(start.domain, lines, beds, walls, ends)
+        return mesh_blocks(start.domain, lines, beds, walls, ends, profiles=job.slip(step))
 
     faults, boundaries = job.faults(step), job.boundaries(step)
     blocks, notes = start.usable_picks.use(mesh, faults, job.interpretation.horizons, boundaries)

@@ -1,6 +1,6 @@
 """The cut-offs of horizons at faults, two at each place, and the throw and heave that follow."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -129,16 +129,16 @@ class PickNetwork:
     position: Callable[[Position], Position] = _unchanged
     length: Callable[[float], str] = "{:.4g}".format
 
-    def cutoffs(self) -> list[CutOffPair]:
+    def cutoffs(self, prescribed: Container[str] = ()) -> list[CutOffPair]:
         """All pairs of cut-offs of the horizons at the faults that agree with each other.
 
         Raises
         ------
         PickError
-            If no horizon ends at a fault on both sides.
+            If no horizon ends at a fault on both sides, and its slip is not prescribed.
         """
         for fault in self.faults:
-            if not any(pair.fault == fault for pair in self._pairs[0]):
+            if fault not in prescribed and not any(pair.fault == fault for pair in self._pairs[0]):
                 raise self._undetermined(fault)
         return self._pairs[0]
 

@@ -15,7 +15,7 @@ from seiswidgets.geology.fault_ends import fault_end_findings
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.growth import growth_findings
 from seiswidgets.geology.passive import carried_finding
-from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport
+from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport, SlipReport
 
 if TYPE_CHECKING:  # both modules import this one
     from seiswidgets.geology.blocks import Blocks
@@ -33,8 +33,16 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
     stretched = [
         finding for name, edges in blocks.beds.items() for finding in _stretched(name, edges, before, after, domain)
     ]
-    found = (*apart, *wide, *stretched, *observe_picks(blocks, domain))
-    return Observations(cutoffs, seams, beds, found)
+    slips, off = _slips(blocks, after, domain)
+    found = (*apart, *off, *wide, *stretched, *observe_picks(blocks, domain))
+    return Observations(cutoffs, seams, beds, found, slips)
+
+
+def _slips(
+    blocks: "Blocks", vertices: np.ndarray, domain: RestorationDomain
+) -> tuple[tuple[SlipReport, ...], list[Finding]]:
+    reports = [sides.report(vertices, domain) for sides in blocks.prescribed.values()]
+    return tuple(report for report, _ in reports), [finding for _, found in reports for finding in found]
 
 
 def observe_picks(blocks: "Blocks", domain: RestorationDomain) -> list[Finding]:
@@ -45,6 +53,7 @@ def observe_picks(blocks: "Blocks", domain: RestorationDomain) -> list[Finding]:
         *fault_end_findings(blocks.lines, slips, domain, blocks.ends),
         *extension_findings(blocks.network.horizons, list(faults), domain),
         *map(carried_finding, blocks.network.refusals),
+        *(finding for sides in blocks.prescribed.values() for finding in sides.findings(domain)),
     ]
 
 

@@ -5,7 +5,7 @@ simplified to match, and each step takes two iterations from the preview before.
 few metres of the full restoration, about one sample.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import takewhile
 
@@ -19,6 +19,7 @@ from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.picks import CONSTRAIN, MISSING, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.slip_profile import SlipProfile, checked_slip
 from seiswidgets.geology.solve import GAUSS_NEWTON, SolverKeywords, SolverOptions
 from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.weights import Weights
@@ -46,17 +47,21 @@ class Step:
         The level to flatten to, in the section's unit of z; the horizon's mean level if left out.
     on : bool
         A step that is off is left out.
+    slip : dict of str to SlipProfile
+        Slip to undo along some of the faults, by name; see `Restoration.unfault`. Names of faults that the step does
+        not slide along have no effect.
 
     Raises
     ------
     SettingError
-        If the kind is not one of these, or the datum is not a finite number.
+        If the kind is not one of these, the datum is not a finite number, or a slip is not a SlipProfile.
     """
 
     kind: str
     picks: tuple[str, ...] = ()
     datum: float | None = None
     on: bool = True
+    slip: Mapping[str, SlipProfile] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         if self.kind not in (UNFAULT, FLATTEN):
@@ -65,6 +70,7 @@ class Step:
         object.__setattr__(self, "picks", (names,) if isinstance(names, str) else tuple(names))
         if self.datum is not None:
             object.__setattr__(self, "datum", validation.finite_number("datum", self.datum))
+        object.__setattr__(self, "slip", checked_slip(self.slip, tuple(self.slip or ())))
 
 
 @dataclass(frozen=True)
@@ -233,9 +239,9 @@ class RestorationJob:
         }
         if step.kind == UNFAULT:
             faults, horizons, others = self.faults(step), self.interpretation.horizons, self.boundaries(step)
-            fixed, pins, regional = self.plan.fixed, self.plan.pins, self.plan.regional
+            fixed, pins, regional, slip = self.plan.fixed, self.plan.pins, self.plan.regional, self.slip(step)
             return restoration.unfault(
-                faults, horizons, boundaries=others, fixed=fixed, pins=pins, regional=regional, **options
+                faults, horizons, boundaries=others, fixed=fixed, pins=pins, regional=regional, slip=slip, **options
             )
         return restoration.flatten(self.horizon(step), datum=step.datum, beds=self._beds, **options)
 
@@ -247,6 +253,10 @@ class RestorationJob:
     def faults(self, step: Step) -> list[Fault]:
         """The faults that a step slides along; PickError if one does not exist."""
         return [self.interpretation.fault(name) for name in step.picks] or list(self.interpretation.faults)
+
+    def slip(self, step: Step) -> dict[str, SlipProfile]:
+        """The slip prescribed for the faults that a step slides along."""
+        return {fault.name: step.slip[fault.name] for fault in self.faults(step) if fault.name in step.slip}
 
     def boundaries(self, step: Step) -> list[Fault]:
         """The faults that a step does not restore."""
@@ -292,7 +302,8 @@ class RestorationJob:
                 (pick.name, pick.use, pick.ends if isinstance(pick, Fault) else "", *_lines(pick)) for pick in picks
             ]
             count = len(self.faults(step)) if step.kind == UNFAULT else 0
-            yield step.kind, step.datum, holds, count, lines, weights, shared
+            slip = self.slip(step) if step.kind == UNFAULT else {}
+            yield step.kind, step.datum, holds, count, lines, weights, slip, shared
 
 
 def _lines(pick: Fault | Horizon) -> list[list[list[float]]]:

@@ -7,7 +7,7 @@ from html import escape
 from seiswidgets.geology.findings import COLOURS, Finding, worst_first
 
 LEAST = 0.001  # metres between cut-offs that are worth a figure
-CONSTRAINTS = {"cut-off", "contact", "datum", "bed length", "overlap"}  # kinds of findings
+CONSTRAINTS = {"cut-off", "slip", "contact", "datum", "bed length", "overlap"}  # kinds of findings
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,16 @@ class SeamReport:
     gap: float
     overlap: float
     widest: float
+
+
+@dataclass(frozen=True)
+class SlipReport:
+    """Least and largest slip prescribed along a fault, and the largest distance from it after the step, in metres."""
+
+    fault: str
+    least: float
+    most: float
+    misfit: float
 
 
 @dataclass(frozen=True)
@@ -79,12 +89,13 @@ class BodyReport:
 
 @dataclass(frozen=True)
 class Observations:
-    """Cut-offs, seams, beds and findings of a stage."""
+    """Cut-offs, seams, beds, findings and prescribed slip of a stage."""
 
     cutoffs: tuple[CutOffReport, ...] = ()
     seams: tuple[SeamReport, ...] = ()
     beds: tuple[BedReport, ...] = ()
     findings: tuple[Finding, ...] = ()
+    slips: tuple[SlipReport, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -119,6 +130,8 @@ class Report:
         In square metres and metres.
     beds : tuple of BedReport
         Flatness in the unit of z.
+    slips : tuple of SlipReport
+        In metres, of the faults whose slip was prescribed.
     motions : tuple of MotionReport
         Rigid motion of each block or limb, the largest first.
     bodies : tuple of BodyReport
@@ -156,6 +169,7 @@ class Report:
     motions: tuple[MotionReport, ...] = ()
     bodies: tuple[BodyReport, ...] = ()
     findings: tuple[Finding, ...] = ()
+    slips: tuple[SlipReport, ...] = ()
     mesher: str = ""
     x_unit: str = "m"
     z_unit: str = "m"
@@ -180,6 +194,7 @@ class Report:
         rows = [(f"{self.kind} {', '.join(self.picks)}", self.verdict)]
         rows += [(finding.severity, finding.text) for finding in self.findings if finding is not worst(self.findings)]
         rows += [(f"{cutoff.horizon} at {cutoff.fault}", self._offset(cutoff)) for cutoff in self.cutoffs]
+        rows += [(f"slip of {slip.fault}", self._slip(slip)) for slip in self.slips]
         rows += [(f"horizon {bed.horizon}", self._bed(bed)) for bed in self.beds]
         percentiles = ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())
         rows.append(("area ratio, before / after", f"{percentiles}; above 1, restoring compressed the rock"))
@@ -195,6 +210,10 @@ class Report:
             f"{cutoff.sense}: throw {cutoff.throw:.4g} {self.z_unit}, heave {cutoff.heave:.4g} {self.x_unit}; "
             f"cut-offs now {apart} m apart"
         )
+
+    def _slip(self, slip: SlipReport) -> str:
+        apart = f"{slip.misfit:.2g}" if slip.misfit >= LEAST else f"less than {LEAST:g}"
+        return f"prescribed, from {slip.least:.4g} to {slip.most:.4g} m; now met to {apart} m"
 
     def _bed(self, bed: BedReport) -> str:
         level = "" if bed.flatness is None else f", {bed.flatness:.2g} {self.z_unit} RMS from the datum"

@@ -1,6 +1,6 @@
 """The restoration of a section: a chain of stages, each made from the one before."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Unpack
@@ -19,6 +19,7 @@ from seiswidgets.geology.flattening import flatten_stage
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.slip_profile import SlipProfile, checked_slip
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
 from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.transfer import (
@@ -100,6 +101,7 @@ class Restoration:
         fixed: tuple[float, float] | None = None,
         pins: Sequence[tuple[float, float]] = (),
         regional: Regional = None,
+        slip: Mapping[str, SlipProfile] | None = None,
         **options: Unpack[SolverKeywords],
     ) -> "Restoration":
         """Slide the blocks back along some faults until the horizons match across them (the paper's section 3.1).
@@ -109,8 +111,8 @@ class Restoration:
         faults : Fault or list of Fault
             Those whose ``use`` is "constrain".
         horizons : Horizon or list of Horizon
-            Each fault needs at least one that meets it on both sides. A fault without one, and any other pick that
-            cannot be used as it was drawn, is carried along with the rock, and the report has a finding about it.
+            Each fault needs at least one that meets it on both sides, or its ``slip``. A fault without, and any other pick
+            that cannot be used as it was drawn, is carried along with the rock, and the report has a finding about it.
         boundaries : Fault or list of Fault
             The other faults of the interpretation, such as older ones that are restored later: no bed crosses them,
             and the rock does not slip along them, except where one of ``faults`` ends at a boundary and can continue
@@ -123,6 +125,9 @@ class Restoration:
             Points that stay exactly where they are.
         regional : float or list of (x, z), optional
             A level that both ends of the section keep, in the unit of z, or a line of points that keep their depth.
+        slip : dict of str to SlipProfile, optional
+            Slip to undo along some of the faults, by name, in place of matching horizons there; such a fault needs
+            none. At an end where a fault dies out the slip is reduced to 0.
         weights : Weights, optional
             Those of the paper if left out.
         solver : {"gauss-newton", "fixed-point"}
@@ -151,14 +156,14 @@ class Restoration:
         """
         solver_options = SolverOptions.from_keywords("unfault", options)
         holds = self.usable_picks.holds(fixed, pins, regional)
+        profiles = checked_slip(slip, list(validation.named_picks(faults, Fault, "fault")))
 
         def slide_blocks(lines: Lines, beds: Beds, walls: Lines, ends: EndsOfFaults) -> Stage:
-            return unfault_stage(self.domain, lines, beds, holds, solver_options, walls, ends=ends)
+            return unfault_stage(self.domain, lines, beds, holds, solver_options, walls, ends=ends, profiles=profiles)
 
         stage, notes = self.usable_picks.use(slide_blocks, faults, horizons, boundaries)
-        return self._with_stage(
-            replace(stage, weights=solver_options.weights, fixed=fixed, pins=tuple(pins), regional=regional), notes
-        )
+        held = replace(stage, fixed=fixed, pins=tuple(pins), regional=regional)
+        return self._with_stage(replace(held, weights=solver_options.weights, slip=profiles), notes)
 
     def _with_stage(self, stage: Stage, notes: Sequence[Finding]) -> "Restoration":
         return replace(self, stages=(*self.stages, stage.with_notes(*notes)))

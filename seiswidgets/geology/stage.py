@@ -1,7 +1,7 @@
 """One stage of a restoration: a mesh before and after it, and how it carries points and lines along."""
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Protocol
@@ -25,6 +25,7 @@ from seiswidgets.geology.motion import observe_motion
 from seiswidgets.geology.report import BodyReport, Observations, Report
 from seiswidgets.geology.segments import horizon_segments, join_pieces
 from seiswidgets.geology.shared_stretches import follow, split_into_stretches
+from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.weights import Weights
 
 SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
@@ -103,6 +104,8 @@ class Stage:
     whole : Stage, optional
         The step that this is only a part of.
     weights : Weights, optional
+    slip : dict of str to SlipProfile
+        Prescribed slip, by fault.
     fixed, pins, regional
         What was held, in the present-day section's units; see `Restoration.unfault`.
     """
@@ -120,6 +123,7 @@ class Stage:
     fixed: tuple[float, float] | None = None
     pins: tuple[tuple[float, float], ...] = ()
     regional: float | Sequence[tuple[float, float]] | None = None
+    slip: Mapping[str, SlipProfile] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.vertices.setflags(write=False)
@@ -175,6 +179,7 @@ class Stage:
             cutoffs=observations.cutoffs,
             seams=observations.seams,
             beds=observations.beds,
+            slips=observations.slips,
             motions=motions,
             bodies=tuple(
                 BodyReport(name, body.area, self.carried_bodies[name].area) for name, body in self.domain.bodies.items()

@@ -9,6 +9,7 @@ import numpy as np
 from shapely import LineString
 
 from seiswidgets.core.contact import Contact, contacts
+from seiswidgets.core.facing import Facing
 from seiswidgets.core.holds import EdgeDirection
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.point_location import triangle_at
@@ -18,13 +19,14 @@ from seiswidgets.core.term import Term
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, MeanValue, Stitch
 from seiswidgets.errors import Keyword, PickError, SettingError
 from seiswidgets.geology.bedding import bedding_terms
-from seiswidgets.geology.blocks import Blocks, mesh_blocks
+from seiswidgets.geology.blocks import NO_PROFILES, Blocks, mesh_blocks
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.fault_lines import NO_ENDS
 from seiswidgets.geology.holds import Holds, PinnedMesh
 from seiswidgets.geology.motion import RockParts
 from seiswidgets.geology.observations import observe_slip
 from seiswidgets.geology.picks import Ends
+from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.solve import GAUSS_NEWTON, SolverOptions, minimise, warm_start
 from seiswidgets.geology.stage import Outcome, Stage
 from seiswidgets.geology.weights import Weights
@@ -39,6 +41,7 @@ def unfault_stage(
     boundaries: Mapping[str, np.ndarray],
     *,
     ends: Mapping[str, Ends] = NO_ENDS,
+    profiles: Mapping[str, SlipProfile] = NO_PROFILES,
 ) -> Stage:
     """Undo the slip on some faults.
 
@@ -53,9 +56,11 @@ def unfault_stage(
         Faults that are not restored in this stage, and that beds do not cross.
     ends : dict of str to pair of str
         See `Fault.ends`.
+    profiles : dict of str to SlipProfile
+        Slip of the faults where it is prescribed, whatever the horizons there say.
     """
     began = time.perf_counter()
-    blocks = mesh_blocks(domain, faults, horizons, boundaries, ends, options.start)
+    blocks = mesh_blocks(domain, faults, horizons, boundaries, ends, options.start, profiles)
     mesh, free = blocks.mesh, free_vertices(blocks, holds.fixed, domain)
     pinned = PinnedMesh(mesh, holds, domain, upright=options.weights.rotation > 0)
     unheld = bool(free.all())
@@ -64,7 +69,7 @@ def unfault_stage(
     terms = [*_terms(blocks, options.row_weights, domain.spacing), *([pinned.term] if pinned.term else [])]
     start = warm_start(mesh, free, options.start)
     if start is None:  # the paper starts its own solver from the unmoved mesh
-        start = _slide_blocks(mesh, blocks.stitches, free, terms) if options.solver == GAUSS_NEWTON else mesh.vertices
+        start = _slide_blocks(mesh, blocks.stitched, free, terms) if options.solver == GAUSS_NEWTON else mesh.vertices
         start = pinned.begin(start) if unheld else start
     adrift = unheld and pinned.is_adrift
     loose = pinned.loose if unheld and not adrift else free
@@ -118,12 +123,12 @@ def _far_field(blocks: Blocks, fixed: np.ndarray, triangle: int, domain: Restora
 
 def _terms(blocks: Blocks, weights: Weights, spacing: float) -> list[Term]:
     mesh, segments = blocks.mesh, blocks.network.horizons.values()
-    pairs = blocks.stitches[blocks.stitches[:, 0] != blocks.stitches[:, 1]]  # at a blind tip both are one
     return [
         MeanValue(mesh, weights.mean_value),
         ContourLaplacian(mesh, weights.contour),
         EdgeLength(mesh.vertices, mesh.edges, weights.edge),
-        Stitch(pairs, len(mesh.vertices), weights.stitch * blocks.reach),
+        Stitch(blocks.stitched, len(mesh.vertices), weights.stitch * blocks.reach),
+        *(term for sides in blocks.prescribed.values() for term in sides.facing(weights.stitch)),
         *(
             term
             for (name, sides), beyond in zip(blocks.sides.items(), blocks.beyond, strict=True)
@@ -141,6 +146,8 @@ def _slide_blocks(mesh: Mesh, stitches: np.ndarray, free: np.ndarray, terms: Seq
     They are shifted one after the other, from the block that stays (or the largest), then moved and turned together.
     """
     label = mesh.blocks
+    facing = [np.column_stack([term.points, term.nearest]) for term in terms if isinstance(term, Facing)]
+    stitches = np.concatenate([stitches, *facing])
     root = label[~free][0] if not free.all() else np.bincount(label, mesh.vertex_areas).argmax()
     shift = np.full((label.max() + 1, 2), np.nan)
     shift[root] = 0
@@ -153,7 +160,7 @@ def _slide_blocks(mesh: Mesh, stitches: np.ndarray, free: np.ndarray, terms: Seq
                     pair = (label[near] == block) & (label[far] == other)
                     shift[other] = shift[block] + np.mean(mesh.vertices[near[pair]] - mesh.vertices[far[pair]], axis=0)
                     queue.append(other)
-    between = [term for term in terms if isinstance(term, Contact | Stitch)]
+    between = [term for term in terms if isinstance(term, Contact | Facing | Stitch)]
     return rigid_blocks(label, between, mesh.vertices + np.nan_to_num(shift)[label], label != root)
 
 

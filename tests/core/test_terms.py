@@ -3,6 +3,7 @@ import pytest
 
 from seiswidgets.core.bedding import AreaChange, BedStretch
 from seiswidgets.core.contact import contacts
+from seiswidgets.core.facing import Facing
 from seiswidgets.core.solver import update_contacts
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, EdgeLength, Level, MeanValue, Stitch
 from tests.core.derivatives import check_curvature, check_jacobian
@@ -25,6 +26,7 @@ def terms_on(name, weight=1.5):
         "contour": ContourLaplacian(mesh, weight),
         "edge length": EdgeLength(mesh.vertices, mesh.edges, weight),
         "stitch": Stitch(sides[:, ::2, 0].T, count, weight),
+        "facing": Facing(sides[0, 1:, 0], sides[1, :-1], *np.full((2, sides.shape[1] - 1), 0.3), count, weight),
         "level": Level(np.arange(5, 15), 120.0, count, weight),
         "bed stretch": BedStretch(mesh, DIRECTIONS[: len(mesh.triangles)], weight),
         "area change": AreaChange(mesh, weight),

@@ -80,7 +80,7 @@ def test_results_in_the_same_folder_leave_the_session_and_its_section(tmp_path, 
 
 def test_errors_are_words_and_the_other_sessions_go_on(saved, tmp_path):
     damaged = tmp_path / "damaged.json"
-    damaged.write_text(saved.read_text().replace('"version": 1', '"version": 77'))
+    damaged.write_text(saved.read_text().replace('"version": 2', '"version": 77'))
     result = run("restore", damaged, tmp_path / "none.json", saved, "--out", tmp_path / "out")
     assert result.returncode == 1
     first, second, third = result.stderr.splitlines()

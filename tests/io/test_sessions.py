@@ -16,7 +16,11 @@ from tests.sections import real_section
 
 SYNTHETIC = sw.SectionSource("synthetic", "faulted_fold", {"throw": 120.0, "horizons": [700.0, 1000.0], "seed": 3})
 PLAN = sw.Plan(
-    (sw.Step("unfault", ("F1",)), sw.Step("flatten", ("H2",), datum=950.0), sw.Step("flatten", on=False)),
+    (
+        sw.Step("unfault", ("F1",), slip={"F2": sw.SlipProfile([0, 90.5], [20, -1 / 3])}),
+        sw.Step("flatten", ("H2",), datum=950.0),
+        sw.Step("flatten", on=False),
+    ),
     sw.Weights(stitch=7.5, edge=1 / 3),
     spacing=70.0,
     max_iterations=40,
@@ -142,7 +146,7 @@ def test_progress_is_told_and_can_cancel(session):
 def test_the_file_can_be_read_by_a_person(saved):
     text = saved[0].read_text()
     assert '"format": "seiswidgets session"' in text
-    assert '"version": 1' in text
+    assert '"version": 2' in text
     x, z = saved[1]["picks"]["faults"][0]["points"][0]
     assert f"[{x!r}, {z!r}]" in text
 
@@ -389,7 +393,18 @@ def test_an_old_session_without_steps_has_the_usual_ones(tmp_path):
     assert sw.open_session(path).plan == sw.Plan()
 
 
-@pytest.mark.parametrize("version", [2, 10**3000])
+def test_sessions_of_version_1_open(saved, session):
+    def age(document):
+        document["version"] = 1
+        for step in document["plan"]["steps"]:
+            del step["slip"]
+
+    again = sw.open_session(changed(saved, age))
+    assert again.plan.steps == tuple(replace(step, slip={}) for step in session.plan.steps)
+    assert again.faults == session.faults
+
+
+@pytest.mark.parametrize("version", [3, 10**3000])
 def test_newer_versions_say_so(saved, version):
     path = changed(saved, lambda document: document.update(version=version))
     with pytest.raises(DataError, match=rf"session.json is a session in version \d+, and seiswidgets {sw.__version__}"):
@@ -405,7 +420,8 @@ def test_the_examples_in_the_docs_open(tmp_path, case):
     (tmp_path / "session.json").write_text(document.replace("64 hexadecimal digits", 64 * "0"))
     session = sw.open_session(tmp_path / "session.json")
     assert session.source == sw.SectionSource("file", str(tmp_path / "data" / "line.npz"))
-    assert session.plan == sw.Plan((sw.Step("unfault"),), fixed=(2000.0, 1600.0))
+    slip = {"F2": sw.SlipProfile([0, 400], [25, 40])}
+    assert session.plan == sw.Plan((sw.Step("unfault", slip=slip),), fixed=(2000.0, 1600.0))
     session.save(tmp_path / "again.json")
     again, shown = (json.loads((tmp_path / name).read_text()) for name in ("again.json", "session.json"))
     assert again == {**shown, "written_by": f"seiswidgets {sw.__version__}"}

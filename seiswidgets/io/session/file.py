@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, fields, replace
 from pathlib import Path
 from reprlib import repr as brief
@@ -13,6 +13,7 @@ from seiswidgets.errors import DataError, SeiswidgetsError, Text
 from seiswidgets.geology.bodies import SALT
 from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends
 from seiswidgets.geology.plan import Plan, Step
+from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.weights import Weights
 from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
 from seiswidgets.io.session.saved_picks import SavedPick
@@ -22,7 +23,7 @@ from seiswidgets.io.session.velocities import read_velocity, velocity_as_json
 if TYPE_CHECKING:
     from seiswidgets.io.session.session import Session
 
-FORMAT, VERSION = "seiswidgets session", 1
+FORMAT, VERSION = "seiswidgets session", 2
 NOT_IN_PLAN = ("fixed", "pins", "regional")  # saved with the picks: points of the section
 DEEPEST = 4  # lists within lists in the choices of a source
 
@@ -57,7 +58,12 @@ def _from_version_0(old: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-MIGRATIONS = {0: _from_version_0}  # from each old version to the next
+def _from_version_1(old: dict[str, Any]) -> dict[str, Any]:
+    """Migrate version 1, which lacks only members that may be missing."""
+    return {**old, "version": 2}
+
+
+MIGRATIONS = {0: _from_version_0, 1: _from_version_1}  # from each old version to the next
 
 
 def session_as_json(session: "Session", path: Path) -> str:
@@ -269,9 +275,18 @@ def _steps(entry: Entry) -> tuple[Step, ...]:
             step.optional("picks", lambda picks: tuple(name.text() for name in picks.items()), ()),
             step.optional("datum", Entry.number, None),
             step.optional("on", Entry.flag, True),
+            step.optional("slip", _slip, {}),
         )
         for step in entry.items()
     )
+
+
+def _slip(entry: Entry) -> dict[str, SlipProfile]:
+    return {name: _build(entry[name], SlipProfile, *_numbers(entry[name], "s", "slip")) for name in entry.members()}
+
+
+def _numbers(entry: Entry, *names: str) -> Iterator[tuple[float, ...]]:
+    return (tuple(item.number() for item in entry[name].items()) for name in names)
 
 
 def _weights(entry: Entry) -> Weights:
