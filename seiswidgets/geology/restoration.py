@@ -111,8 +111,8 @@ class Restoration:
         faults : Fault or list of Fault
             Those whose ``use`` is "constrain".
         horizons : Horizon or list of Horizon
-            Each fault needs at least one that meets it on both sides, or its ``slip``. A fault without, and any other pick
-            that cannot be used as it was drawn, is carried along with the rock, and the report has a finding about it.
+            Each fault needs at least one that meets it on both sides, or its ``slip``. A fault without, and any other
+            pick that cannot be used as it was drawn, is carried along with the rock, and the report has a finding.
         boundaries : Fault or list of Fault
             The other faults of the interpretation, such as older ones that are restored later: no bed crosses them,
             and the rock does not slip along them, except where one of ``faults`` ends at a boundary and can continue
