@@ -98,10 +98,13 @@ class FaultSides:
                 f"s={s[np.argmax(steep)]:.0f} m, so that rock would have to turn over; let it change more slowly",
                 pick=self.name,
             )
-        walls = s + slip / 2, s - slip / 2
-        return [self._facing(self.edges[::step], walls[::step], weight) for step in (1, -1)]
+        above, below = s + slip / 2, s - slip / 2
+        return [
+            self._facing(self.edges, (above, below), weight),
+            self._facing(self.edges[::-1], (below, above), weight),
+        ]
 
-    def _facing(self, edges: np.ndarray, walls: tuple[np.ndarray, ...], weight: float) -> Facing:
+    def _facing(self, edges: np.ndarray, walls: tuple[np.ndarray, np.ndarray], weight: float) -> Facing:
         own, other = edges
         points = np.setdiff1d(own, other)
         partner = np.interp(self.arcs(points), *walls, left=np.nan, right=np.nan)
