@@ -5,9 +5,10 @@ import numpy as np
 from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.interaction.drawing import PickSelection
-from seiswidgets.interaction.editor_state import BLOCK, LOOK, EditorState, Tools
+from seiswidgets.interaction.editor_state import BLOCK, LOOK, MOVE, EditorState, Tools
 from seiswidgets.interaction.gestures import Move, Press
 from seiswidgets.interaction.mouse import press
+from seiswidgets.interaction.piece_moves import name_pieces
 
 PAN = "Drag to pan, turn the wheel to zoom"
 HELP = "? shows all gestures and keys"
@@ -18,7 +19,7 @@ def click_hint(state: EditorState, pointer: Move, tools: Tools) -> str:
     if state.drag:
         return ""
     event = Press(pointer.point, pointer.pixel, pointer.projection, modifiers=pointer.modifiers)
-    if not np.isfinite(pointer.point).all():
+    if not np.isfinite(pointer.point).all() and state.mode != MOVE:
         return f"No rock here. {PAN}."
     after = press(state, event, tools)
     return f"{_effect(state, after)}. {HELP}." if after is not None else f"{PAN}. {HELP}."
@@ -31,7 +32,7 @@ def _effect(before: EditorState, after: EditorState) -> str:
         return "Click to pin this point" if len(after.pins) > len(before.pins) else "Click to release this pin"
     if before.mode == BLOCK:
         return "Click to release the block" if after.fixed is None else "Click to hold this block where it is"
-    if before.mode == LOOK:
+    if before.mode in (LOOK, MOVE):
         return f"Click to select {after.selection.name}" if after.selection else PAN
     return _drawn(before, after)
 
@@ -41,7 +42,13 @@ def _grabbed(before: EditorState, after: EditorState) -> str:
     drag = after.drag
     if drag is None:
         return PAN
+    if drag.target is None:
+        return "Drag a rectangle around pieces to select them; drag a piece to move it, its cut-off to slide it"
     name = _name(drag.target)
+    if drag.pieces and drag.fault is not None:
+        return f"Drag to slide this piece of {name} along {drag.fault}"
+    if drag.pieces:
+        return f"Drag to move {name_pieces(after.drawing, drag.pieces)}; Shift+click selects several"
     if drag.fault is not None:
         return f"Drag to move the cut-off of {name} along {drag.fault}"
     if drag.base != before.drawing:

@@ -6,11 +6,23 @@ from functools import partial
 
 import numpy as np
 
+from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import CARRY, CONSTRAIN, FAULT, HORIZON
-from seiswidgets.interaction.drawing import Pick, PickSelection, Point
+from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection, Point
 from seiswidgets.interaction.editor import PickEditor
-from seiswidgets.interaction.editor_state import EditorState
+from seiswidgets.interaction.editor_state import EditorState, Tools
 from seiswidgets.interaction.gestures import Press, line_under, vertex_under
+from seiswidgets.interaction.piece_commands import (
+    Command,
+    begin_move,
+    copy_down,
+    copy_up,
+    delete,
+    extend,
+    join,
+    reverse,
+    split,
+)
 
 Item = tuple[str, Callable[[], object]]
 
@@ -25,6 +37,7 @@ def menu_items(editor: PickEditor, event: Press) -> list[Item]:
     else:
         hit = _pick_under(state, event)
         items = rock if hit is None else _pick_items(editor, event, *hit)
+        items += _selection_items(editor)
     entry = editor.history.next_undo
     return [*items, *([(f"Undo: {entry.label}", editor.undo)] if entry else [])]
 
@@ -41,13 +54,14 @@ def _pick_items(editor: PickEditor, event: Press, pick: Pick, target: PickSelect
     """Actions on the pick, the piece and the vertex at a point."""
     kind, name = pick.kind, pick.name
     vertex = vertex_under(event, pick.pieces[target.piece or 0], event.projection.to_pixels)
+    inserted = editor.drawing.with_vertex_inserted(target, point)
     items: list[Item] = [(f"Select {name}", partial(editor.select, kind, name))]
     if vertex:
         hit = replace(target, vertex=vertex[0])
         items.append(("Remove this vertex", lambda: editor.change(lambda state: state.remove_vertex(hit))))
     else:
-        inserted = editor.drawing.with_vertex_inserted(target, point)
         items.append(("Insert a vertex here", lambda: editor.change(lambda state: state.draw(inserted, target))))
+    items += _piece_items(editor, pick, target, inserted, vertex[0] if vertex else None)
     if kind == HORIZON and len(pick.pieces) > 1:
         rest = editor.drawing.with_line(replace(target, vertex=None), [])
         items.append(("Delete this piece", lambda: editor.change(lambda state: state.draw(rest))))
@@ -58,6 +72,41 @@ def _pick_items(editor: PickEditor, event: Press, pick: Pick, target: PickSelect
         (f"Hide {name}", partial(editor.show, kind, name, False)),
         (f"Delete {name}", partial(editor.delete, kind, name)),
     ]
+
+
+def _piece_items(
+    editor: PickEditor, pick: Pick, target: PickSelection, inserted: Drawing, vertex: int | None
+) -> list[Item]:
+    """Actions on a whole line; ``inserted`` is the drawing with a vertex at the point, ``vertex`` one that is there."""
+    piece, whole = replace(target, vertex=None), PickSelection(pick.kind, pick.name)
+
+    def split_here(state: EditorState, tools: Tools) -> EditorState:
+        base = state.edit(inserted) if vertex is None else state
+        return split(base.change(selection=target if vertex is None else replace(target, vertex=vertex)), tools)
+
+    def command(label: str, command: Command, on: PickSelection = piece) -> Item:
+        return label, partial(editor.command, command, on)
+
+    items = [command(f"Move {pick.name}", begin_move, whole)]
+    if len(pick.pieces) > 1:
+        items = [command("Move this piece", begin_move), *items, command("Join to the nearest piece", join)]
+    if pick.kind == HORIZON:
+        copies = (f"Copy {pick.name} up", copy_up), (f"Copy {pick.name} down", copy_down)
+        items += [command(*copy, whole) for copy in copies]
+    if pick.kind == BODY:
+        return items
+    if vertex not in (0, len(pick.pieces[target.piece or 0]) - 1):
+        items.append(command("Split here", split_here, target))
+    return [*items, command("Extend to fault or border", extend), command("Reverse the line", reverse)]
+
+
+def _selection_items(editor: PickEditor) -> list[Item]:
+    """Actions on several pieces that are selected."""
+    count = len(editor.state.chosen_pieces)
+    if not editor.state.others:
+        return []
+    commands = (f"Delete the {count} selected pieces", delete), (f"Join the {count} selected pieces", join)
+    return [(label, partial(editor.command, command)) for label, command in commands]
 
 
 def _rock_items(editor: PickEditor, point: Point) -> list[Item]:

@@ -146,7 +146,12 @@ class Drawing:
         """Replace the pieces of a pick; without any, the pick goes."""
         if not pieces:
             return self.without_pick(kind, name)
-        return self._with_changes(kind, name, pieces=tuple(map(_points, pieces)))
+        return self.with_changes(kind, name, pieces=tuple(map(_points, pieces)))
+
+    def with_changes(self, kind: str, name: str, /, **changes: Any) -> "Drawing":
+        """Change fields of a pick."""
+        old = self.pick(kind, name)
+        return replace(self, picks=tuple(replace(old, **changes) if pick is old else pick for pick in self.picks))
 
     def with_vertex_moved(self, target: PickSelection, point: Sequence[float]) -> "Drawing":
         """Move a vertex to a point."""
@@ -190,7 +195,7 @@ class Drawing:
         drawing = replace(self, draft=None)
         if draft.name is not None and draft.name in drawing.names(draft.kind):
             pieces = (*drawing.pick(draft.kind, draft.name).pieces, draft.points)
-            return drawing._with_changes(draft.kind, draft.name, pieces=pieces, visible=True), draft.name
+            return drawing.with_changes(draft.kind, draft.name, pieces=pieces, visible=True), draft.name
         name = self.free_name(draft.kind) if draft.name is None else draft.name
         return drawing.with_pick(draft.kind, name, [draft.points]), name
 
@@ -208,31 +213,31 @@ class Drawing:
         if new == name:
             return self
         if new not in self.names(kind):
-            return self._with_changes(kind, name, name=new)._with_draft_renamed(kind, name, new)
+            return self.with_changes(kind, name, name=new)._with_draft_renamed(kind, name, new)
         if kind != HORIZON:
             raise PickError(f"there is a {kind} called {new!r} already; give each a name of its own", pick=name)
-        joined = self._with_changes(kind, new, pieces=self.pick(kind, new).pieces + pick.pieces)
+        joined = self.with_changes(kind, new, pieces=self.pick(kind, new).pieces + pick.pieces)
         return joined.without_pick(kind, name)._with_draft_renamed(kind, name, new)
 
     def with_colour(self, kind: str, name: str, colour: str) -> "Drawing":
         """Give a pick a colour, "#rrggbb" or a name; SettingError if it is neither."""
         if not re.fullmatch(r"#[0-9a-fA-F]{3}|#[0-9a-fA-F]{6}|[a-zA-Z]+", str(colour)):
             raise SettingError(f"colour must be #rrggbb or the name of a colour, but is {colour!r}")
-        return self._with_changes(kind, name, colour=str(colour))
+        return self.with_changes(kind, name, colour=str(colour))
 
     def with_visibility(self, kind: str, name: str, visible: bool) -> "Drawing":
         """Show or hide a pick."""
-        return self._with_changes(kind, name, visible=bool(visible))
+        return self.with_changes(kind, name, visible=bool(visible))
 
     def with_use(self, kind: str, name: str, use: str) -> "Drawing":
         """Let a pick constrain the restoration, only carry it along, or ignore it."""
         check_use(name, use)
-        return self._with_changes(kind, name, use=use)
+        return self.with_changes(kind, name, use=use)
 
     def with_body_kind(self, name: str, body: str) -> "Drawing":
         """Say whether a body is salt or an area without data."""
         check_kind(name, body)
-        return self._with_changes(BODY, name, body=body)
+        return self.with_changes(BODY, name, body=body)
 
     def without_pick(self, kind: str, name: str) -> "Drawing":
         """Delete a pick."""
@@ -318,10 +323,6 @@ class Drawing:
         if self.draft and self.draft.kind == HORIZON:
             drawing, name = self.with_draft_finished()
         return self if name is None else replace(drawing, draft=DraftLine(HORIZON, (), name))
-
-    def _with_changes(self, kind: str, name: str, /, **changes: Any) -> "Drawing":
-        old = self.pick(kind, name)
-        return replace(self, picks=tuple(replace(old, **changes) if pick is old else pick for pick in self.picks))
 
     def _with_draft_renamed(self, kind: str, name: str, new: str) -> "Drawing":
         draft = self.draft

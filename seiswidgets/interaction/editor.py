@@ -1,7 +1,7 @@
 """The pick editor: a state machine that turns gestures into edits, with unlimited undo. It knows no Jupyter.
 
-Modes are look, fault, horizon, body and block. In fault, horizon and body mode, picks of that kind can be changed; in
-look mode, the one that is selected.
+Modes are look, fault, horizon, body, move and block. In fault, horizon and body mode, picks of that kind can be
+changed; in look mode, the one that is selected; in move mode, whole pieces are selected and moved.
 
 `gesture_table` lists what each gesture and key does. Tab is never consumed, so that it leaves the canvas.
 """
@@ -20,6 +20,7 @@ from seiswidgets.interaction.editor_state import MODES, EditorState, Tools
 from seiswidgets.interaction.gestures import DoubleClick, Gesture, Key, Move, Press, Release
 from seiswidgets.interaction.keyboard import press_key
 from seiswidgets.interaction.mouse import CTRL, double_click, move, press, release
+from seiswidgets.interaction.piece_commands import Command
 from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.viewport import Viewport
 
@@ -102,6 +103,12 @@ class PickEditor:
         """Change to another state as one edit."""
         self.settle()
         self._become(transition(self.state))
+
+    def command(self, command: Command, target: PickSelection | None = None) -> None:
+        """Carry out a command on what is selected, or on a target, as one edit; PickError if it cannot be."""
+        self.settle()
+        state = self.state if target is None else self.state.change(selection=target)
+        self._become(command(state, self._tools))
 
     def click_hint(self, pointer: Move) -> str:
         """Describe the effect of a click at the pointer."""
@@ -221,7 +228,7 @@ class PickEditor:
         if state.drag:
             self.history.amend(**changes)
         else:
-            self.history.edit(label, selection, **changes)
+            self.history.edit(label or state.action, selection, **changes)
             if before.drawing.draft and not state.drawing.draft and state.drawing == before.finish(self._tools).drawing:
                 self.history.close_draft(_closed)
         return True

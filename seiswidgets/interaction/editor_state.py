@@ -1,6 +1,6 @@
 """The state of the pick editor as a frozen value, and the transitions that mouse and keyboard share."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -15,32 +15,38 @@ from seiswidgets.interaction.projection import PaneProjection
 from seiswidgets.interaction.snapping import END_REACH, snap_to_lines
 from seiswidgets.interaction.viewport import Viewport
 
-LOOK, BLOCK = "look", "block"
-MODES = (LOOK, FAULT, HORIZON, BODY, BLOCK)
+LOOK, MOVE, BLOCK = "look", "move", "block"
+MODES = (LOOK, FAULT, HORIZON, BODY, MOVE, BLOCK)
 
 
 @dataclass(frozen=True)
 class Drag:
-    """A vertex held by the pointer.
+    """A vertex or whole pieces held by the pointer, or a rectangle that selects pieces.
 
     Attributes
     ----------
-    target : PickSelection
-        The vertex, in ``base``.
+    target : PickSelection or None
+        The vertex or the piece that was grabbed, in ``base``; None for a rectangle.
     before : Drawing
     selection : PickSelection or None
         The drawing and the selection before the drag, for Escape and undo.
     base : Drawing
-        The drawing in which the vertex moves: with the vertex inserted, or the piece cut at its fault.
+        The drawing in which it moves: with the vertex inserted, or the piece cut at its fault.
     pixel, last : tuple
         Pointer positions at the start of the drag and at its latest move.
     fault : str or None
         Name of the fault that a cut-off slides along.
     moves : bool
         True once the pointer has left its starting position; a click does not move anything.
+    pieces : tuple of PickSelection
+        Pieces that move as a whole, in ``base``; for a rectangle, those that stay selected whatever it holds.
+    is_restored : bool
+        True if the rectangle is drawn in the pane of the restored section.
+    action : str
+        Name of the edit; "" derives it.
     """
 
-    target: PickSelection
+    target: PickSelection | None
     before: Drawing
     selection: PickSelection | None
     base: Drawing
@@ -48,6 +54,9 @@ class Drag:
     last: Point
     fault: str | None = None
     moves: bool = False
+    pieces: tuple[PickSelection, ...] = ()
+    is_restored: bool = False
+    action: str = ""
 
 
 @dataclass(frozen=True)
@@ -94,13 +103,17 @@ class EditorState:
     Attributes
     ----------
     document : Document
-    mode : {"look", "fault", "horizon", "body", "block"}
+    mode : {"look", "fault", "horizon", "body", "move", "block"}
         If there is a draft line, its kind.
     selection : PickSelection or None
         A pick, a piece of it, or one vertex of that or of the draft line.
     cursor : (x, z) or None
-        The keyboard cursor; None in look mode.
+        The keyboard cursor; None in the modes look and move.
     drag : Drag or None
+    others : tuple of PickSelection
+        Further picks and pieces that are selected.
+    action : str
+        Name of the edit that led here; "" derives it.
     """
 
     document: Document
@@ -108,6 +121,8 @@ class EditorState:
     selection: PickSelection | None = None
     cursor: Point | None = None
     drag: Drag | None = None
+    others: tuple[PickSelection, ...] = ()
+    action: str = ""
 
     @property
     def drawing(self) -> Drawing:
@@ -125,16 +140,41 @@ class EditorState:
         return self.document.plan.pins
 
     def change(self, **changes: Any) -> "EditorState":
-        """Change fields, then make the mode that of the draft line, and reduce the selection to what exists."""
-        state = replace(self, **changes)
+        """Change fields, then make the mode that of the draft line, and reduce the selection to what exists.
+
+        A new selection drops ``others`` unless they are given too.
+        """
+        others = () if "selection" in changes else self.others
+        state = replace(self, **{"others": others, "action": "", **changes})
         draft = state.drawing.draft
         mode = draft.kind if draft else state.mode
-        state = replace(state, mode=mode, cursor=None if mode == LOOK else state.cursor)
-        return replace(state, selection=_existing(state))
+        state = replace(state, mode=mode, cursor=None if mode in (LOOK, MOVE) else state.cursor)
+        kept = (_existing(state, target) for target in state.others)
+        return replace(state, selection=_existing(state, state.selection), others=tuple(filter(None, kept)))
 
-    def draw(self, drawing: Drawing, selection: PickSelection | None = None) -> "EditorState":
-        """Replace the drawing, and select something in it."""
-        return self.change(document=replace(self.document, drawing=drawing), selection=selection)
+    @property
+    def chosen_pieces(self) -> tuple[PickSelection, ...]:
+        """The pieces that are selected, those of whole picks included, in the order of the drawing."""
+        chosen = {(one.kind, one.name, one.piece) for one in (self.selection, *self.others) if one is not None}
+        return tuple(
+            PickSelection(pick.kind, pick.name, piece)
+            for pick in self.drawing.picks
+            for piece in range(len(pick.pieces))
+            if chosen & {(pick.kind, pick.name, piece), (pick.kind, pick.name, None)}
+        )
+
+    def choose(self, pieces: Iterable[PickSelection]) -> "EditorState":
+        """Select pieces and nothing else."""
+        chosen = tuple(pieces)
+        return self.change(selection=chosen[0] if chosen else None, others=chosen[1:])
+
+    def draw(self, drawing: Drawing, selection: PickSelection | None = None, action: str = "") -> "EditorState":
+        """Replace the drawing, and select something in it; ``action`` names the edit."""
+        return self.change(document=replace(self.document, drawing=drawing), selection=selection, action=action)
+
+    def edit(self, drawing: Drawing, action: str = "") -> "EditorState":
+        """Replace the drawing, and keep what is selected."""
+        return self.change(document=replace(self.document, drawing=drawing), action=action)
 
     def hold(self, point: Point | None) -> "EditorState":
         """Hold the block that a point lies in; with None, hold no block."""
@@ -149,7 +189,7 @@ class EditorState:
 
     def settle(self) -> "EditorState":
         """End a drag where it is."""
-        return self.change(drag=None)
+        return self.change(drag=None, action=self.drag.action if self.drag else "")
 
     def enter(self, mode: str, tools: Tools) -> "EditorState":
         """Change the mode; a draft line is finished, or dropped if it is a single point."""
@@ -229,9 +269,9 @@ class EditorState:
         ]
 
 
-def _existing(state: EditorState) -> PickSelection | None:
-    """Reduce the selection to what exists: to a piece or pick where its vertex cannot be changed now, or to None."""
-    target, drawing = state.selection, state.drawing
+def _existing(state: EditorState, target: PickSelection | None) -> PickSelection | None:
+    """Reduce a selection to what exists: to a piece or pick where its vertex cannot be changed now, or to None."""
+    drawing = state.drawing
     if target is None:
         return None
     points = drawing.line(target)
@@ -240,5 +280,5 @@ def _existing(state: EditorState) -> PickSelection | None:
         return target if has_vertex else None
     if not any(pick.visible for pick in drawing.picks if (pick.kind, pick.name) == (target.kind, target.name)):
         return None
-    usable = state.mode in (LOOK, target.kind) and drawing.draft is None
+    usable = state.mode in (LOOK, MOVE, target.kind) and drawing.draft is None
     return target if has_vertex and usable else replace(target, piece=target.piece if points else None, vertex=None)

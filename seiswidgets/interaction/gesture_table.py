@@ -18,8 +18,26 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("Escape", "cancels a drag; else the line; else the selection; else goes back to Look"),
         ("Ctrl+Z; Ctrl+Y, Ctrl+Shift+Z", "undo, a finished line by its last edits; redo. Anywhere in the app"),
     ),
+    "Whole lines and pieces, in the mode Move, or with Alt in the others": (
+        ("Drag a line", "moves the piece, or all that are selected; with Ctrl the whole line, all its pieces"),
+        (
+            "Drag a cut-off",
+            "slides its piece along the fault: the cut-off stays on the fault, and the rest moves with it",
+        ),
+        ("Shift+click; drag a rectangle", "select several; Delete deletes them. Shift+click works in Look, too"),
+        ("Arrows", "move the selection by one trace or sample, with Shift by ten"),
+        ("Ctrl+Up, Ctrl+Down", "slide the selected piece along its fault by the height of a sample, with Shift of ten"),
+        (
+            "C, Shift+C",
+            "copy the selected horizon down, up; the copy has a name of its own, and can be dragged at once",
+        ),
+        ("J", "joins the selected pieces, or one piece of a horizon to the nearest other one"),
+        ("X", "splits a line at the selected vertex; a fault becomes two"),
+        ("E", "extends the selected line, or its selected end, straight to the first fault or the border"),
+        ("R", "reverses the line, which can then be drawn on from its other end"),
+    ),
     "Looking and holding": (
-        ("L, F, H, S, B", "modes Look, Fault, Horizon, Body (salt), Hold"),
+        ("L, F, H, S, M, B", "modes Look, Fault, Horizon, Body (salt), Move, Hold"),
         ("Click, in Look", "selects a line, whose vertices can then be dragged"),
         ("Click, in Hold", "holds the block at the pointer; on the pin, releases it"),
         ("Shift+click, in Hold", "pins the point at the pointer; a click on a pin releases it"),
@@ -40,12 +58,12 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
             "move the cursor, Shift ten times as far, Ctrl by one trace or sample; they move a selected vertex by one "
             "trace or sample, with Shift by ten",
         ),
-        ("Page Up, Page Down", "select the vertex before, after"),
+        ("Page Up, Page Down", "select the vertex before, after; in Move, the piece"),
         ("Insert, I", "insert a vertex after the selected one"),
         (
             "Delete, Backspace",
             "remove the selected vertex; else the last one of the line being drawn; else the selected piece; in Look, "
-            "the selected pick; in Hold, the pin",
+            "the selected pick; in Move, the selected pieces; in Hold, the pin",
         ),
     ),
     "Histogram": (

@@ -11,14 +11,16 @@ import numpy as np
 from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.interaction.drawing import PickSelection, Point
-from seiswidgets.interaction.editor_state import BLOCK, LOOK, EditorState, Tools
+from seiswidgets.interaction.editor_state import BLOCK, LOOK, MOVE, EditorState, Tools
 from seiswidgets.interaction.gestures import Key
 from seiswidgets.interaction.mouse import CTRL, abandon_drag
+from seiswidgets.interaction.piece_commands import COMMAND_KEYS
+from seiswidgets.interaction.piece_moves import nudge_pieces, remove_chosen, slide_chosen, visible_pieces
 
 STRIDE = 8.0  # css pixels that the keyboard cursor moves at least
 FAST = 10  # factor on that with Shift
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
-MODE_KEYS = {"l": LOOK, "f": FAULT, "h": HORIZON, "s": BODY, "b": BLOCK}
+MODE_KEYS = {"l": LOOK, "f": FAULT, "h": HORIZON, "s": BODY, "m": MOVE, "b": BLOCK}
 
 
 def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
@@ -28,11 +30,14 @@ def press_key(state: EditorState, event: Key, tools: Tools) -> EditorState | Non
     if "alt" in event.modifiers:
         return None
     if event.name in ARROWS:
-        return _arrow(state, event, tools)
+        return (_move_chosen if state.mode == MOVE else _arrow)(state, event, tools)
     if event.modifiers & CTRL:
         return None
     if event.name in ACTIONS:
         return ACTIONS[event.name](state, event, tools)
+    command = COMMAND_KEYS.get(event.name) or COMMAND_KEYS.get(event.name.lower())
+    if command is not None:
+        return None if state.selection is None or state.drawing.draft else command(state, tools)
     mode = MODE_KEYS.get(event.name.lower())
     return None if mode is None else state.enter(mode, tools)
 
@@ -62,6 +67,15 @@ def _arrow(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     return state.change(cursor=tools.inside(_cursor(state, tools) + direction * cell * stride))
 
 
+def _move_chosen(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
+    """Move the selected pieces by a trace or sample; with Ctrl, slide one along its fault, up or down."""
+    direction, section = np.array(ARROWS[event.name]), tools.viewport.section
+    fast = FAST if "shift" in event.modifiers else 1
+    if event.modifiers & CTRL:
+        return slide_chosen(state, fast * int(direction[1]), section)
+    return nudge_pieces(state, fast * direction * (section.dx, section.dz), section)
+
+
 def _cursor(state: EditorState, tools: Tools) -> Point:
     """Position of the keyboard cursor; at first the selected vertex, the draft's last one, or the window's middle."""
     section, target, draft = tools.viewport.section, _selected_vertex(state), state.drawing.draft
@@ -79,7 +93,7 @@ def _cursor(state: EditorState, tools: Tools) -> Point:
 def _enter(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     """Show the cursor, put a vertex at it, or finish the draft line."""
     draft = state.drawing.draft
-    if state.mode == LOOK:
+    if state.mode in (LOOK, MOVE):
         return None
     if state.cursor is None and not draft:
         chosen = state.selection and replace(state.selection, piece=None, vertex=None)
@@ -106,6 +120,8 @@ def _put(state: EditorState, event: Key, tools: Tools) -> EditorState:
 
 def _delete(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     vertex, draft_end = _selected_vertex(state), state.drawing.draft_end
+    if state.mode == MOVE or state.others:
+        return remove_chosen(state)
     if vertex is not None:
         return state.remove_vertex(vertex)
     if draft_end is not None:
@@ -148,10 +164,12 @@ def _vertex_point(state: EditorState, target: PickSelection) -> Point:
 
 
 def _select_vertex(state: EditorState, step: int) -> EditorState | None:
-    """Select the next (``step`` 1) or previous (-1) of the vertices that can be changed now."""
+    """Select the next (``step`` 1) or previous (-1) of the vertices that can be changed now, or of the pieces."""
     targets = [
         replace(target, vertex=vertex) for target, points in state.editable_lines() for vertex in range(len(points))
     ]
+    if state.mode == MOVE:
+        targets = [target for target, _ in visible_pieces(state)]
     if not targets:
         return None
     chosen = state.selection

@@ -19,8 +19,17 @@ from seiswidgets.interaction.cutoff_handles import (
     wall_of,
 )
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Points, closed
-from seiswidgets.interaction.editor_state import BLOCK, LOOK, Drag, EditorState, Tools
+from seiswidgets.interaction.editor_state import BLOCK, LOOK, MOVE, Drag, EditorState, Tools
 from seiswidgets.interaction.gestures import DoubleClick, Move, Press, Release, line_under, vertex_under
+from seiswidgets.interaction.piece_moves import (
+    begin_rectangle,
+    choose_in_rectangle,
+    grab_cutoff_piece,
+    grab_piece,
+    move_pieces,
+    toggle_piece,
+    visible_pieces,
+)
 from seiswidgets.interaction.projection import side_of
 
 CLICK_RADIUS = 3.0  # css pixels: a press that moves less is a click
@@ -29,10 +38,14 @@ CTRL = frozenset({"ctrl", "meta"})
 
 def press(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
     """Add, select, remove or grab something under the pointer."""
-    if event.button != 0 or not np.isfinite([*event.point, *event.pixel]).all():
+    if event.button != 0 or not np.isfinite(event.pixel).all():
         return None
     state = state.change(cursor=None)
     mode, free = state.mode, "shift" in event.modifiers
+    if mode == MOVE or (mode != BLOCK and "alt" in event.modifiers and not state.drawing.draft):
+        return _grab_whole(state, event, tools)
+    if not np.isfinite(event.point).all():
+        return None
     if mode == BLOCK:
         return _toggle_held(state, event, tools)
     if event.modifiers & CTRL:
@@ -40,7 +53,7 @@ def press(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
     if not (free and mode != LOOK) and (grabbed := _grab_under(state, event, tools)):
         return grabbed
     if mode == LOOK:
-        return _select_under(state, event)
+        return _select_under(state, event, besides=free)
     return state.add(event.point, tools, event.projection, free=free)
 
 
@@ -50,9 +63,15 @@ def move(state: EditorState, event: Move | Release, tools: Tools) -> EditorState
     if drag is None:
         return None
     far = np.hypot(*np.subtract(event.pixel, drag.pixel)) >= CLICK_RADIUS
-    if not ((far or drag.moves) and np.isfinite(event.point).all()):
+    by_pixels = drag.target is None or (drag.pieces and drag.fault is None)
+    if not ((far or drag.moves) and (by_pixels or np.isfinite(event.point).all())):
         return state
-    moved = state.draw(_dragged(drag, event, tools), drag.target)
+    if drag.target is None:
+        moved = choose_in_rectangle(state, event)
+    elif drag.pieces:
+        moved = state.edit(move_pieces(drag, event, tools)).choose(drag.pieces)
+    else:
+        moved = state.draw(_dragged(drag, drag.target, event, tools), drag.target)
     return moved.change(drag=replace(drag, last=event.pixel, moves=True))
 
 
@@ -77,16 +96,16 @@ def double_click(state: EditorState, event: DoubleClick, tools: Tools) -> Editor
     """Finish the draft line, or hold a block."""
     if not np.isfinite([*event.point, *event.pixel]).all():
         return None
-    if state.mode == LOOK:
+    if state.mode in (LOOK, MOVE):
         return None if _piece_under(state, event) is None else state
     return state.hold(tools.inside(event.point)) if state.mode == BLOCK else state.finish(tools)
 
 
-def _dragged(drag: Drag, event: Move | Release, tools: Tools) -> Drawing:
+def _dragged(drag: Drag, target: PickSelection, event: Move | Release, tools: Tools) -> Drawing:
     free = "shift" in event.modifiers
     if drag.fault is not None and not free:
-        return slide_along_fault(drag.base, tools.viewport.section, drag.target, drag.fault, event.point)
-    target, point = drag.target, tools.place_vertex(event.point, drag.target.kind, free=free)
+        return slide_along_fault(drag.base, tools.viewport.section, target, drag.fault, event.point)
+    point = tools.place_vertex(event.point, target.kind, free=free)
     is_end = target.vertex in (0, len(drag.base.line(target)) - 1)
     if target.kind == FAULT and target.name is not None and is_end and not free:
         point = tools.snap_end(point, drag.base, target.name)
@@ -106,6 +125,18 @@ def _toggle_held(state: EditorState, event: Press, tools: Tools) -> EditorState:
 def _remove_under(state: EditorState, event: Press) -> EditorState | None:
     target = _vertex_under(state, event)
     return None if target is None else state.remove_vertex(target)
+
+
+def _grab_whole(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
+    """Grab whole pieces: at a cut-off one to slide, else what is under the pointer; a rectangle where there is none."""
+    at_cutoff = not event.modifiers & {"shift", *CTRL} and np.isfinite(event.point).all()
+    handle = _cutoff_under(state, event, tools.viewport.section) if at_cutoff else None
+    if handle is not None:
+        return grab_cutoff_piece(state, event, tools, handle)
+    target = _piece_under(state, event)
+    if target is not None:
+        return grab_piece(state, event, target)
+    return begin_rectangle(state, event) if state.mode == MOVE else None
 
 
 def _grab_under(state: EditorState, event: Press, tools: Tools) -> EditorState | None:
@@ -189,18 +220,19 @@ def _border(kind: str, points: Points) -> Points:
     return closed(points) if kind == BODY else points
 
 
-def _select_under(state: EditorState, event: Press) -> EditorState | None:
+def _select_under(state: EditorState, event: Press, *, besides: bool) -> EditorState | None:
+    """Select the piece under a press; ``besides`` what is selected, or take it away from that."""
     target = _piece_under(state, event)
-    return None if target is None else state.change(selection=target)
+    if target is None:
+        return None
+    return toggle_piece(state, target) if besides else state.change(selection=target)
 
 
 def _piece_under(state: EditorState, event: Press | DoubleClick) -> PickSelection | None:
     """Return the visible piece under a press, or None."""
     hits = [
-        (hit[2], PickSelection(pick.kind, pick.name, piece))
-        for pick in state.drawing.picks
-        if pick.visible
-        for piece, points in enumerate(pick.pieces)
-        if (hit := line_under(event, _border(pick.kind, points), event.projection.to_pixels))
+        (hit[2], target)
+        for target, points in visible_pieces(state)
+        if (hit := line_under(event, _border(target.kind, points), event.projection.to_pixels))
     ]
     return min(hits, key=lambda hit: hit[0])[1] if hits else None

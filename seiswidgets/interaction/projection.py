@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -98,6 +99,32 @@ class PaneProjection:
         runs[0][0], runs[-1][-1] = ends
         return runs
 
+    def moved(self, points: ArrayLike, side: int, shift: ArrayLike) -> np.ndarray:
+        """Present-day points of a line that is moved by a shift in css pixels of the pane, shape (n, 2).
+
+        In a restored pane, the part that stays in one block: what crosses a fault there, or leaves the rock, is cut
+        off. Empty if the pane does not show the line.
+
+        Parameters
+        ----------
+        points, side
+            Present-day line, as for ``vertices``.
+        """
+        rows, shift = np.asarray(points, float), np.multiply(shift, self.view.pixel)
+        if self.restoration is None:
+            return rows + shift
+        pane = self.vertices([(rows, side)])[0]
+        if not np.isfinite(pane).all():
+            return np.empty((0, 2))
+        dense, at = _densified(pane + shift, self.view.pixel)
+        back = self.restoration.to_original(dense)
+        starts = [0, *_breaks(dense, back, self.view.section), len(at)]
+        runs = [slice(*ends) for ends in pairwise(starts) if np.isfinite(back[slice(*ends)]).all()]
+        run = max(runs, key=lambda run: run.stop - run.start, default=slice(0))
+        kept = at[run] % 1 == 0
+        kept[:1] = kept[-1:] = True
+        return np.asarray(back[run][kept])
+
     def _moved_off_faults(self, lines: Sequence[Line]) -> list[np.ndarray]:
         if self.restoration is None:
             return [np.asarray(points, float) for points, _ in lines]
@@ -128,7 +155,7 @@ def _moved_off_fault(points: ArrayLike, pixel: np.ndarray, side: int) -> np.ndar
 
 def _mapped(lines: Sequence[np.ndarray], point_map: Map, view: Viewport) -> list[list[np.ndarray]]:
     """Map lines, each to one or more runs, which are simplified."""
-    dense = [_densified(line, view.pixel) for line in lines]
+    dense = [_densified(line, view.pixel)[0] for line in lines]
     mapped = _mapped_together(point_map, dense)
     return [_runs(before, after, view.section) for before, after in zip(dense, mapped, strict=True)]
 
@@ -141,13 +168,18 @@ def _mapped_together(point_map: Map, lines: Sequence[np.ndarray]) -> list[np.nda
 
 def _runs(before: np.ndarray, after: np.ndarray, section: Section) -> list[np.ndarray]:
     """Split a mapped line where it jumps at a fault, and simplify the runs."""
-    lengths = [np.hypot(*(np.diff(points, axis=0) * section.metres).T) for points in (before, after)]
-    step_before, step_after = np.nan_to_num(lengths, nan=np.inf)
-    breaks = np.flatnonzero(~(step_after <= JUMP * step_before)) + 1
+    breaks = _breaks(before, after, section)
     cell = np.array([section.dx, section.dz])
     pairs = zip(np.split(before, breaks), np.split(after, breaks), strict=True)
     known = ((np.isfinite(run).all(axis=1), start, run) for start, run in pairs)
     return [_simplified(start[rows], run[rows], cell) for rows, start, run in known if rows.sum() > 1]
+
+
+def _breaks(before: np.ndarray, after: np.ndarray, section: Section) -> np.ndarray:
+    """Indices of the points of a mapped line before which it jumps, or is unknown on one side."""
+    lengths = [np.hypot(*(np.diff(points, axis=0) * section.metres).T) for points in (before, after)]
+    step_before, step_after = np.nan_to_num(lengths, nan=np.inf)
+    return np.flatnonzero(~(step_after <= JUMP * step_before)) + 1
 
 
 def _with_gaps(runs: Sequence[np.ndarray]) -> np.ndarray:
@@ -155,15 +187,15 @@ def _with_gaps(runs: Sequence[np.ndarray]) -> np.ndarray:
     return np.concatenate([rows for run in runs for rows in (run, gap)]) if runs else np.empty((0, 2))
 
 
-def _densified(line: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-    """Add points to a line, so that neighbours lie about ``SAMPLE_DISTANCE`` apart."""
+def _densified(line: np.ndarray, pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Add points to a line, so that neighbours lie about ``SAMPLE_DISTANCE`` apart; return their indices, too."""
     lengths = np.hypot(*(np.diff(line, axis=0) / pixel).T) / SAMPLE_DISTANCE
     share = min(1.0, MOST_SAMPLES / max(1.0, lengths.sum()))
     counts = np.maximum(1, np.ceil(lengths * share)).astype(int)
     parameters = [index + np.arange(1, count + 1) / count for index, count in enumerate(counts)]
     indices = np.arange(len(line))
     at = np.concatenate([[0.0], *parameters])
-    return np.column_stack([np.interp(at, indices, line[:, 0]), np.interp(at, indices, line[:, 1])])
+    return np.column_stack([np.interp(at, indices, line[:, 0]), np.interp(at, indices, line[:, 1])]), at
 
 
 def _simplified(before: np.ndarray, after: np.ndarray, cell: np.ndarray) -> np.ndarray:

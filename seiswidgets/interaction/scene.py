@@ -9,7 +9,7 @@ from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT
 from seiswidgets.interaction.cutoff_handles import CutOffHandle
 from seiswidgets.interaction.drawing import PickSelection, Point, Points, closed
-from seiswidgets.interaction.editor_state import LOOK, EditorState
+from seiswidgets.interaction.editor_state import LOOK, MOVE, EditorState
 from seiswidgets.interaction.overlay import Mark, Stroke
 from seiswidgets.interaction.projection import PaneProjection, side_of
 
@@ -28,7 +28,18 @@ def strokes(state: EditorState, projection: PaneProjection) -> list[Stroke]:
     return [
         *(line.stroke(points) for line, points in zip(lines, shown, strict=True)),
         *(line.dots(points, projection.view.pixel) for line, points in zip(open_lines, vertices, strict=True)),
+        *_rectangle(state, projection),
     ]
+
+
+def _rectangle(state: EditorState, projection: PaneProjection) -> list[Stroke]:
+    """The rectangle that selects pieces, in the pane in which it is drawn."""
+    drag = state.drag
+    if drag is None or drag.target is not None or drag.is_restored != (projection.restoration is not None):
+        return []
+    (left, top), (right, bottom) = drag.pixel, drag.last
+    corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]
+    return [Stroke(projection.view.to_section(corners), DRAFT_COLOUR, WIDTH, dash=DASH)]
 
 
 def marks(state: EditorState, projection: PaneProjection, cutoffs: tuple[CutOffHandle, ...]) -> list[Mark]:
@@ -108,6 +119,9 @@ def _lines(state: EditorState) -> Iterator[_Line]:
 
 def _line(state: EditorState, target: PickSelection, points: Points, colour: str) -> _Line:
     selection = state.selection
+    if state.mode == MOVE or state.others:
+        is_chosen = target in state.chosen_pieces
+        return _Line(target, points, colour, is_selected=is_chosen, is_open=state.mode == target.kind)
     if selection is None or (selection.kind, selection.name) != (target.kind, target.name):
         return _Line(target, points, colour, is_open=target.name is None or state.mode == target.kind)
     is_open = target.name is None or state.mode in (target.kind, LOOK)

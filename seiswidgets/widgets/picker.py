@@ -18,7 +18,7 @@ from seiswidgets.interaction.context_menu import menu_items
 from seiswidgets.interaction.document import Document, Entry
 from seiswidgets.interaction.drawing import Drawing, Point
 from seiswidgets.interaction.editor import PickEditor
-from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES
+from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES, MOVE
 from seiswidgets.interaction.gestures import Gesture, Move, Press
 from seiswidgets.interaction.scene import marks, rubber_band, strokes
 from seiswidgets.interaction.snapping import EVENTS, follow_event, snap_to_event
@@ -37,7 +37,7 @@ OFF = "off"
 ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
 KEYS = (
     *("Enter", "Escape", "Delete", "Backspace", "Insert", "PageUp", "PageDown", " "),
-    *"lfhsbiLFHSBI",
+    *"lfhsmbicjxreLFHSMBICJXRE",
     *ARROWS,
     *(f"Ctrl+{key}" for key in (*ARROWS, "z", "Z", "y", "Y")),
 )
@@ -46,6 +46,7 @@ MODE_LABELS = {
     FAULT: ("Fault", "Click along a fault; double click or press Enter to finish it (F)"),
     HORIZON: ("Horizon", "Click along a horizon; double click or press Enter to finish a piece of it (H)"),
     BODY: ("Body", "Click around salt or an area without data; double click or press Enter to close it (S)"),
+    MOVE: ("Move", "Drag a line, or its cut-off along the fault; Shift+click or a rectangle select several (M)"),
     BLOCK: (
         "Hold",
         "Click in the block to hold, or Shift+click a point to pin; click a pin to release it (B)",
@@ -65,8 +66,8 @@ class Picker(WithParts, VBox):
 
     In fault, horizon and body mode a click adds a vertex, a double click or Enter finishes the line, Escape drops it;
     vertices and cut-offs can be dragged, and a vertex is removed by Ctrl-click or Delete. All of this works with the
-    keyboard too: L, F, H, S and B choose the mode, Enter shows a cursor, the arrows move it, and Space puts a vertex at
-    it. "?" shows all gestures.
+    keyboard too: L, F, H, S, M and B choose the mode, Enter shows a cursor, the arrows move it, and Space puts a vertex
+    at it. "?" shows all gestures.
 
     Parameters
     ----------
@@ -83,7 +84,7 @@ class Picker(WithParts, VBox):
         Picks that are finished and valid; may be set, as an edit that can be undone.
     fixed : (x, z) or None
         A point in the block that is held; may be set.
-    mode : {"look", "fault", "horizon", "body", "block"}
+    mode : {"look", "fault", "horizon", "body", "move", "block"}
     snap : {"off", "peak", "trough", "zero-up", "zero-down"}
         The event that vertices of horizons snap to.
     window : float

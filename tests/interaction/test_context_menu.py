@@ -1,6 +1,7 @@
 import pytest
 
 from seiswidgets.interaction.context_menu import menu_items
+from seiswidgets.interaction.drawing import PickSelection
 from seiswidgets.interaction.gestures import Press
 from tests.interaction.test_editor import FAULT, LEFT, PLAIN, VIEW, drawn, pieces  # noqa: F401
 
@@ -21,6 +22,15 @@ def menu(editor, point):
         (FAULT[1], "Only carry F1", lambda editor: editor.interpretation.faults[0].use == "carry"),
         (LEFT[1], "Delete this piece", lambda editor: len(pieces(editor, "H1", "horizon")) == 1),
         (LEFT[1], "Select H1", lambda editor: editor.state.selection.name == "H1"),
+        (LEFT[1], "Move H1", lambda editor: len(editor.state.chosen_pieces) == 2 and editor.state.mode == "move"),
+        (LEFT[1], "Move this piece", lambda editor: len(editor.state.chosen_pieces) == 1),
+        (LEFT[1], "Copy H1 up", lambda editor: editor.drawing.names("horizon") == ("H1", "H2", "H3")),
+        (LEFT[1], "Copy H1 down", lambda editor: editor.state.selection.name == "H3"),
+        (LEFT[1], "Join to the nearest piece", lambda editor: len(pieces(editor, "H1", "horizon")) == 1),
+        ((425.0, 200.0), "Split here", lambda editor: editor.drawing.names("fault") == ("F1", "F2")),
+        (FAULT[1], "Split here", lambda editor: pieces(editor, "F2") == (tuple(FAULT[1:]),)),
+        (FAULT[1], "Extend to fault or border", lambda editor: pieces(editor)[0][0] == (375.0, 0.0)),
+        (FAULT[1], "Reverse the line", lambda editor: pieces(editor) == (tuple(FAULT[::-1]),)),
         (EMPTY, "Begin a fault here", lambda editor: editor.drawing.draft.points == (EMPTY,)),
         (EMPTY, "Begin a horizon here", lambda editor: editor.drawing.draft.name is None),
         (EMPTY, "Hold this block", lambda editor: editor.state.fixed == EMPTY),
@@ -51,3 +61,15 @@ def test_a_line_that_is_being_drawn_is_finished_or_dropped(drawn):  # noqa: F811
     drawn.add((800.0, 300.0))
     menu(drawn, FAULT[1])["Drop the line"]()
     assert drawn.drawing.draft is None
+
+
+def test_several_selected_pieces_have_actions_of_their_own(drawn):  # noqa: F811
+    drawn.select("horizon", "H1")
+    assert "Join the 2 selected pieces" not in menu(drawn, EMPTY)
+    drawn.change(lambda state: state.choose(state.chosen_pieces))
+    menu(drawn, EMPTY)["Join the 2 selected pieces"]()
+    assert len(pieces(drawn, "H1", "horizon")) == 1
+    drawn.undo()
+    drawn.change(lambda state: state.choose(state.change(selection=PickSelection("horizon", "H1")).chosen_pieces))
+    menu(drawn, EMPTY)["Delete the 2 selected pieces"]()
+    assert drawn.drawing.names("horizon") == ("H2",)
