@@ -18,7 +18,10 @@ SLOWEST, FASTEST = 100.0, 12_000.0  # m/s: other velocities are not of rock, or 
 class Velocity(Protocol):
     """A velocity model. Positions are in metres; times are two-way, in seconds, from depth zero."""
 
-    source: str
+    @property
+    def source(self) -> str:
+        """Origin of the figures; "" if not stated."""
+        ...
 
     def depth(self, x: np.ndarray, time: np.ndarray) -> np.ndarray:
         """Depth in metres at some times; shape of ``time``."""

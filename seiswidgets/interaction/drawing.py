@@ -22,6 +22,7 @@ from seiswidgets.geology.picks import (
     Fault,
     Horizon,
     Interpretation,
+    LineMap,
     both_ends,
     check_use,
     usable,
@@ -275,6 +276,14 @@ class Drawing:
         new = Pick(kind, name, points, colour, visible, use, both_ends(ends), body)
         return replace(self, picks=(*self.picks, new))
 
+    def mapped(self, line_map: LineMap) -> "Drawing":
+        """Apply a function of lines, shape (n, 2) to (m, 2), to all picks and the draft line."""
+        picks = [
+            replace(pick, pieces=tuple(_mapped(pick, piece, line_map) for piece in pick.pieces)) for pick in self.picks
+        ]
+        draft = self.draft and replace(self.draft, points=_points(line_map(np.array(self.draft.points))))
+        return Drawing(tuple(picks), draft)
+
     def lies_on(self, section: Section) -> bool:
         """Return True if no pick reaches beyond a section."""
         points = [point for pick in self.picks for piece in pick.pieces for point in piece]
@@ -339,6 +348,12 @@ class Drawing:
 def closed(points: Points) -> Points:
     """Points with the first one repeated at the end."""
     return (*points, *points[:1])
+
+
+def _mapped(pick: Pick, piece: Points, line_map: LineMap) -> Points:
+    line = closed(piece) if pick.kind == BODY else piece
+    mapped = _points(line_map(np.array(line)))
+    return mapped[:-1] if pick.kind == BODY else mapped
 
 
 def _points(points: ArrayLike) -> Points:

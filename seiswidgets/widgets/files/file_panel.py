@@ -7,6 +7,7 @@ from ipywidgets import HTML, Button, HBox, Layout, Text, VBox
 
 from seiswidgets.io.files import user_path
 from seiswidgets.io.session.autosave import next_version
+from seiswidgets.widgets.files.depth_panel import DepthPanel
 from seiswidgets.widgets.files.picks_files import PicksFiles
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.result_files import ResultFiles
@@ -32,14 +33,21 @@ class FilePanel(VBox):
 
     Attributes
     ----------
-    section, picks, results, session : SectionOpener, PicksFiles, ResultFiles, SessionFile
+    section, depth, picks, results, session : SectionOpener, DepthPanel, PicksFiles, ResultFiles, SessionFile
     """
 
     def __init__(self, workspace: Workspace, session_bar: SessionBar):
         self.section, self.picks = SectionOpener(workspace), PicksFiles(workspace)
+        self.depth = DepthPanel(workspace)
         self.results, self.session = ResultFiles(workspace), SessionFile(session_bar)
         where = HTML(HINT.format(WHERE.format(escape(str(Path.cwd())))))
-        parts = {"Section": self.section, "Picks": self.picks, "Results": self.results, "Session": self.session}
+        parts = {
+            "Section": self.section,
+            "Depth": self.depth,
+            "Picks": self.picks,
+            "Results": self.results,
+            "Session": self.session,
+        }
         children = [child for title, part in parts.items() for child in (HTML(HEADING.format(title)), part)]
         super().__init__([where, *children])
 
