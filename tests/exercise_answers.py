@@ -1,7 +1,7 @@
 """Answers of students to the notebooks' exercises: the right one, and wrong ones with a word of the hint they get.
 
 The right answers are worked out by hand from what each notebook sets (a throw of 150 m on a fault of 60°, ...), or
-read off its figures, and typed as a student would.
+read off its figures, and typed as a student would. Answers to exercises in code are Python, evaluated in the notebook.
 """
 
 ANSWERS = {
@@ -10,17 +10,18 @@ ANSWERS = {
         (
             "it turned about the centre of the arc",
             {
-                "it was shifted along the mean dip": "rock on rock",
+                "it was shifted along the mean dip": "overlaps rock",
                 "it dropped": "no heave",
                 "it was sheared along the beds": "changes the angles",
             },
         ),
+        ("32.5", {"-32.5": "other way round", "0": "itself", "3943.6": "wider is that"}),
         (
             "the top of the section",
             {
                 "the base of the section": "pulled apart",
                 "all of it alike": "keeps its length",
-                "the rock along the fault": "nearly nothing",
+                "the rock along the fault": "hardly anything",
             },
         ),
     ],
@@ -28,12 +29,43 @@ ANSWERS = {
         ("edge length", {"mean value": "know no size", "contour": "border", "bed length": "look at the rock"}),
         (
             "10",
-            {"50": "one vertex against one", "11.1": "all pulls balance", "90": "still to go", "100": "Gauss-Newton"},
+            {
+                "50": "one vertex against one",
+                "11.1": "all pulls balance",
+                "0.9": "still missing",
+                "100": "Gauss-Newton",
+            },
+        ),
+        (
+            "lambda count, slide, stitch: stitch / (stitch + count * slide) * 100",
+            {
+                "lambda count, slide, stitch: stitch / (stitch + count * slide)": "share is returned",
+                "lambda count, slide, stitch: 100 * stitch / (stitch + slide)": "How many hold",
+                "lambda count, slide, stitch: 100 * count * slide / (stitch + count * slide)": "still missing",
+                "lambda slide, stitch: 10": "must take 3 arguments",
+            },
         ),
         ("4", {"1": "fixed number", "2": "steady speed", "8": "square", "3": "too small"}),
     ],
     "03_fault_restoration": [
-        ("43.7 m", {"330": "other way round", "41": "takes the throw for the slip", "128": "along the fault"}),
+        (
+            "43.7 m",
+            {
+                "0.33 km": "other way round",
+                "41": "takes the throw for the slip",
+                "128": "along the fault",
+                "70°": "angle",
+            },
+        ),
+        (
+            "lambda throw, dip: throw / np.tan(np.radians(dip))",
+            {
+                "lambda throw, dip: throw / np.tan(dip)": "takes radians",
+                "lambda throw, dip: throw * np.tan(np.radians(dip))": "other way round",
+                "lambda throw, dip: throw * np.cos(np.radians(dip))": "for the slip",
+                "lambda throw, dip: throw / tan(dip)": "spelt",
+            },
+        ),
         (
             "the correlation",
             {
@@ -42,14 +74,28 @@ ANSWERS = {
                 "whether the solver settled": "not that it was right",
             },
         ),
-        ("92", {"80": "vertical part", "46": "horizontal part", "69": "longer"}),
+        ("303 ft", {"80": "vertical part", "46": "horizontal part", "69": "longer"}),
         ("217", {"125": "straight line", "177": "parabola", "33.5": "from the tip"}),
         ("139", {"69": "closes one fault", "0": "fill a gap", "240": "Those are the throws"}),
     ],
     "04_flattening": [
         (
-            "7.3 %",
-            {"7.9": "what was before", "13.4": "steepest limb", "92.7": "is left", "0": "longer than a level one"},
+            "0.073",
+            {
+                "7.9": "width before folding",
+                "0.134": "steepest limb",
+                "0.927": "is left",
+                "0": "longer than a straight one",
+            },
+        ),
+        (
+            "lambda points: 100 * (1 - np.ptp(points[:, 0]) / length_of(points))",
+            {
+                "lambda points: 1 - np.ptp(points[:, 0]) / length_of(points)": "share",
+                "lambda points: 100 * np.ptp(points[:, 0]) / length_of(points)": "left",
+                "lambda points: 'much'": "no number",
+                "lambda points: None": "return",
+            },
         ),
         (
             "only how high everything lies",
@@ -59,10 +105,19 @@ ANSWERS = {
                 "the shape of the other beds": "lay one over the other",
             },
         ),
-        ("46", {"0": "That is the truth", "54": "taken away", "100": "flatter", "216": "other way round"}),
+        ("0.46", {"0": "That is the truth", "0.54": "taken away", "100": "flatter", "216": "other way round"}),
     ],
     "05_two_domains": [
-        ("775", {"695": "without the fault", "609": "lengthens", "845": "vertical"}),
+        ("775", {"695": "without the fault", "609": "lengthens", "0.845 km": "vertical"}),
+        (
+            "lambda x, z: restored.to_original([(x, z)])[0]",
+            {
+                "lambda x, z: restored.to_restored([(x, z)])[0]": "other way",
+                "lambda x, z: (x, z)": "where it is",
+                "lambda x, z: restored.to_original([(x, z)])": "2 numbers are wanted",
+                "lambda x, z: restored.to_original(x, z)": "on its own",
+            },
+        ),
         ("131", {"150": "That is the throw", "86": "horizontal", "0": "restored path"}),
         (
             "165",
@@ -70,14 +125,14 @@ ANSWERS = {
         ),
     ],
     "06_real_sections": [
-        ("68°", {"32": "true proportions", "128": "No fault is steeper", "9": "pressed flat"}),
-        ("71", {"58": "milliseconds for metres", "80": "there and back", "19": "with the vertical"}),
+        ("1.187", {"32": "true proportions", "128": "No fault is steeper", "9": "compressed vertically"}),
+        ("1.24 rad", {"58": "milliseconds for metres", "80": "two-way", "19": "with the vertical"}),
         ("31.7", {"63.4": "take half", "17.6": "number of milliseconds", "9.8": "more metres"}),
         ("20.8 m", {"26.8": "That is the heave", "6.6": "how much of the heave closed", "1.6": "too small"}),
         (
             "throw in metres",
             {
-                "throw in ms": "no velocity comes in",
+                "throw in ms": "no velocity is involved",
                 "correlation": "it changes by",
                 "deformation": "not in proportion",
                 "none of them": "as steeply",
@@ -85,9 +140,17 @@ ANSWERS = {
         ),
     ],
     "07_limits": [
-        ("73 m", {"200": "how far it came", "68.4": "along the beds", "188": "whole way", "0": "do not dip"}),
-        ("18.5", {"0": "Salt flows", "83": "at the crest", "15.6": "salt of today"}),
-        ("393", {"300": "restoration says", "229": "other way round", "348": "do not subtract"}),
+        ("73 m", {"200": "how far it came", "68.4": "along the beds", "188": "whole distance", "0": "do not dip"}),
+        ("0.185", {"0": "Salt flows", "83": "at the crest", "15.6": "present-day salt"}),
+        ("393", {"300": "So says the restoration", "229": "other way round", "348": "do not subtract"}),
+        (
+            "lambda thickness, porosity, then: thickness * (1 - porosity) / (1 - then)",
+            {
+                "lambda thickness, porosity, then: thickness * (1 - then) / (1 - porosity)": "other way round",
+                "lambda thickness, porosity, then: thickness * then / porosity": "grains",
+                "lambda thickness, porosity, then: thickness": "in 1 of 3",
+            },
+        ),
         ("52", {"60": "of that depth", "66.8": "other way round", "44": "tangent"}),
     ],
 }

@@ -78,3 +78,15 @@ def test_the_readme_gives_the_figures_of_the_real_sections():
     assert found["misfit"] == pytest.approx(misfit, abs=0.01)
     before, after = zip(*found["correlation"].values(), strict=True)
     assert [*before, *after] == pytest.approx(correlations, abs=0.03)  # 0.02 apart with the other mesher
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_prompts_to_think_first_have_a_folded_answer(path):
+    prompts = [text for text in cells(path, "markdown") if re.search(r"\*\*(Before you|Question)", text)]
+    assert prompts
+    assert all("<details><summary>Answer</summary>\n\n" in text for text in prompts)
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_at_least_one_exercise_is_a_line_to_write(path):
+    assert any("...  # write this line" in text and "check(question_" in text for text in cells(path, "code"))

@@ -1,5 +1,5 @@
-"""The notebooks' questions: one module a notebook, what a question is, and the form that asks it."""
+"""The notebooks' questions: one module for each notebook, the kinds of questions, and the form that asks them."""
 
-from exercises.form import ask
+from exercises.form import ask, check
 
-__all__ = ["ask"]
+__all__ = ["ask", "check"]

@@ -2,51 +2,57 @@
 
 from math import atan, cos, degrees, radians, sin, tan
 
-from exercises.question import Number
+from exercises.question import Code, Number
 
 
 def false_throw(aside: float, dip: float) -> Number:
-    """The throw that a slip out of the plane (m) feigns where beds dip across it (degrees)."""
+    """The apparent throw by a slip out of the plane (m) where beds dip across it (degrees)."""
     angle = radians(dip)
     return Number(
         f"Rock came {aside:.0f} m from behind the page, and the beds dip away from you at {dip:.0f}°. How much of the "
-        "throw on the picture is false?",
+        "throw in the picture is false?",
         aside * tan(angle),
         "m",
         1.0,
-        "So much deeper lie the beds where that rock came from. A section along the slip would not see it.",
+        "The beds lie that much deeper where the rock came from. A section along the slip would not show it.",
         (
-            (aside, "That is how far it came. What counts is how much deeper the beds are there."),
-            (aside * sin(angle), f"That takes the {aside:.0f} m along the beds. They are measured level."),
-            (aside * cos(angle), "That is nearly the whole way, for beds that are nearly level."),
+            (aside, "That is how far it came. How much deeper are the beds there?"),
+            (aside * sin(angle), f"That takes the {aside:.0f} m along the beds. They are measured horizontally."),
+            (aside * cos(angle), "That is nearly the whole distance, for beds that are nearly level."),
             (0.0, "It is 0 only where the beds do not dip across the section."),
         ),
-        "The beds' dip, over a level way of so many metres.",
+        "Draw the beds as seen from the side: how much deeper are they where the rock came from?",
+        f"The tangent of the dip, multiplied by a horizontal distance of {aside:.0f} m.",
     )
 
 
 def salt_grown(came: float, before: float, rise: float, thickness: float) -> Number:
-    """The share by which the salt's area has grown, from areas (m²), the crest's rise and the thickness (m)."""
+    """The growth of the salt's area (%), from areas (m²), the crest's rise and the thickness (m)."""
     return Number(
         f"{before / 1e6:.2f} km² of salt lay in the section, {came / 1e6:.2f} km² came in. By what share has its area "
         "grown?",
         100 * came / before,
         "%",
         1.0,
-        "All of that is area which the method believes was there from the first.",
+        "The method believes that all of that area was there from the beginning.",
         (
             (0.0, "So the method assumes. Salt flows, in and out of the section too."),
             (
                 100 * rise / thickness,
-                "That is the growth of its thickness at the crest. The pillow is not as wide as that.",
+                "That is the growth of its thickness at the crest. The pillow is not as wide as the section.",
             ),
             (
                 100 * came / (before + came),
-                "That is its share of the salt of today. Growth counts from what was there.",
+                "That is its share of the present-day salt. Growth is relative to what was there before.",
             ),
         ),
-        "What came, over what was there.",
+        "Growth is relative to what was there before.",
+        "Divide the area that came in by the area that was there.",
     )
+
+
+def _thickness_then(thickness, porosity, then):
+    return thickness * (1 - porosity) / (1 - then)
 
 
 def decompacted(thickness: float, porosity: float, then: float) -> Number:
@@ -54,37 +60,59 @@ def decompacted(thickness: float, porosity: float, then: float) -> Number:
     return Number(
         f"A bed is {thickness:.0f} m thick, with a porosity of {porosity:.2f}. When it lay shallower its porosity was "
         f"{then:.2f}. How thick was it then?",
-        thickness * (1 - porosity) / (1 - then),
+        _thickness_then(thickness, porosity, then),
         "m",
         4.0,
-        "The grains stay, the water goes: thickness times (1 - porosity) is kept.",
+        "The grains stay and the water leaves: thickness times (1 - porosity) is kept.",
         (
-            (thickness, "That is what the restoration says, which keeps areas. What was squeezed out since?"),
+            (thickness, "So says the restoration, which keeps areas. What has been squeezed out since?"),
             (thickness * (1 - then) / (1 - porosity), "The other way round: beds get thinner when they are buried."),
             (
                 thickness * (1 + then - porosity),
                 "The porosities are shares of two different thicknesses: do not subtract.",
             ),
-            (thickness * then / porosity, "It is not the water that is kept, but the grains."),
+            (thickness * then / porosity, "The water is not kept; the grains are."),
         ),
+        "What stayed the same while the bed was buried?",
         "Thickness times (1 - porosity), the height of the grains alone, is the same now and then.",
     )
 
 
+def thickness_function() -> Code:
+    """A function for the thickness before compaction."""
+    return Code(
+        "Write the line of thickness_then, for any bed: thickness (m) and porosity now, and porosity then.",
+        _thickness_then,
+        "return thickness * (1 - porosity) / (1 - then)",
+        ((300.0, 0.29, 0.46), (100.0, 0.2, 0.6), (50.0, 0.3, 0.3)),
+        "This is decompaction in one line. A real one integrates it over depth, because porosity changes within a bed.",
+        (
+            (
+                lambda thickness, porosity, then: thickness * (1 - then) / (1 - porosity),
+                "The other way round: beds get thinner when they are buried.",
+            ),
+            (lambda thickness, porosity, then: thickness * then / porosity, "The water is not kept; the grains are."),
+        ),
+        "It is the formula of the exercise before.",
+        "The height of the grains now, thickness * (1 - porosity), must equal that of the grains then.",
+    )
+
+
 def dip_in_time(dip: float, velocity: float, assumed: float) -> Number:
-    """How steep a fault (degrees) seems where the velocity differs from the one that is assumed (both in m/s)."""
+    """The apparent dip of a fault (degrees) where the velocity differs from the assumed one (both in m/s)."""
     slope = tan(radians(dip))
     return Number(
-        f"At a depth of 1,800 m the rock has {velocity:.0f} m/s. How steep does the fault of {dip:.0f}° seem there, "
-        f"if you take {assumed:.0f} m/s for all of the section?",
+        f"At a depth of 1,800 m the velocity is {velocity:.0f} m/s. How steep does the fault of {dip:.0f}° seem there "
+        f"if you take {assumed:.0f} m/s for the whole section?",
         degrees(atan(slope * assumed / velocity)),
         "°",
         1.0,
         "Too gentle below and too steep above: a straight fault seems to be listric.",
         (
             (dip, "That would be right if you had taken the velocity of that depth."),
-            (degrees(atan(slope * velocity / assumed)), "The other way round: faster rock has less time to the metre."),
+            (degrees(atan(slope * velocity / assumed)), "The other way round: in faster rock a metre takes less time."),
             (dip * assumed / velocity, "It is the slope, the tangent, that is multiplied, not the angle."),
         ),
-        "A metre down counts for assumed / true velocity of a metre. Multiply the slope by that.",
+        "Does a metre of fast rock appear longer or shorter than a metre of slow rock?",
+        "A metre down appears as assumed / true velocity of a metre. Multiply the slope by that.",
     )

@@ -18,8 +18,9 @@ MOST_SECONDS, MOST_MEGABYTES = 60, 1000  # of the processor, and of memory
 OUTPUTS = """() => window.jupyterapp.shell.currentWidget.content.widgets
   .flatMap((cell) => cell.model.outputs?.toJSON() ?? [])"""
 PICTURE, WIDGET = "image/png", "application/vnd.jupyter.widget-view+json"  # an app's output is both
-FORM = ".widget-vbox:has(> .widget-button + .widget-html [role=status])"
-FEEDBACK = """[[vars(question.check(given)) for given in answers] for question, answers in zip(
+FORM = ".widget-vbox:has(> .widget-hbox + .widget-html [role=status])"
+FEEDBACK = """[[vars(question.check(eval(given) if hasattr(question, "cases") else given)) for given in answers]
+    for question, answers in zip(
     [value for name, value in globals().items() if name.startswith("question_")], {answers}, strict=True)]"""
 USED = "[__import__('time').process_time(), __import__('resource').getrusage(0).ru_maxrss]"
 UNIT = 2**20 if sys.platform == "darwin" else 2**10  # of the memory used, in a megabyte
