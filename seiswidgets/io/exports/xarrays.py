@@ -1,14 +1,16 @@
 """Sections and deformation as labelled arrays of xarray, which can write NetCDF."""
 
 from collections.abc import Hashable
-from typing import TYPE_CHECKING, Any, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack, overload
 
 import numpy as np
 
 from seiswidgets.errors import Keyword, SectionError
+from seiswidgets.geology.ensembles.ensemble import Ensemble
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import METRES, SECONDS, Section
 from seiswidgets.geology.validation import checked_kind
+from seiswidgets.io.exports.ensembles import ensemble_dataset
 from seiswidgets.io.exports.reports import stages_as_line
 from seiswidgets.io.files import import_optional
 from seiswidgets.signatures import strict_keywords
@@ -30,17 +32,30 @@ class SectionKeywords(TypedDict, total=False):
     credit: str | None
 
 
+@overload
+def to_xarray(section: Section) -> "xarray.DataArray": ...
+
+
+@overload
+def to_xarray(section: Ensemble) -> "xarray.Dataset": ...
+
+
 @strict_keywords
-def to_xarray(section: Section) -> "xarray.DataArray":
+def to_xarray(section: Section | Ensemble) -> "xarray.DataArray | xarray.Dataset":
     """Convert a section to an array of dimensions ("z", "x"), with units and the rest in coordinates and attributes.
+
+    An ensemble becomes a Dataset: each quantity by ``member``, with its percentiles and its shares of variance, the
+    depths of restored horizons, and the area ratios. Quantities that restoring gives are NaN in members with a ``problem``.
 
     Raises
     ------
     SettingError
-        If ``section`` is not a Section.
+        If ``section`` is neither.
     DataError
         If xarray is not installed.
     """
+    if isinstance(section, Ensemble):
+        return ensemble_dataset(section)
     checked_kind(section, Section, "section")
     return import_optional("xarray", "to make an xarray.DataArray").DataArray(
         section.amplitude,

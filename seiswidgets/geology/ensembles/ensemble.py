@@ -1,0 +1,186 @@
+"""The result of an ensemble: percentiles, spreads, and which input matters."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+
+import numpy as np
+
+from seiswidgets.geology.ensembles.member import Frame, Member, Study
+from seiswidgets.geology.ensembles.shares import first_order_shares
+from seiswidgets.geology.ensembles.uncertainty import INPUTS
+from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.measures import SHARES, Label, unit_of
+
+PERCENTS = (5.0, 50.0, 95.0)
+METHOD = "first-order shares of variance by linear regression on the numbers that drew each member"
+
+
+@dataclass(frozen=True, eq=False)
+class Ensemble:
+    """Many restorations of one section, with the errors of its picks drawn at random.
+
+    Attributes
+    ----------
+    study : Study
+        The hypothesis as drawn, the uncertainty and the seed.
+    frame : Frame
+        The labels of the results, ``(quantity, about)``, and the positions of depths and area ratios.
+    members : tuple of Member
+        By index; those that were refused or did not settle have a ``problem``, and no restored lengths and areas.
+    """
+
+    study: Study
+    frame: Frame
+    members: tuple[Member, ...]
+
+    @classmethod
+    def of(cls, study: Study, frame: Frame, members: Iterable[Member]) -> "Ensemble":
+        """The ensemble of members in any order."""
+        return cls(study, frame, tuple(sorted(members, key=lambda member: member.index)))
+
+    @property
+    def labels(self) -> tuple[Label, ...]:
+        """Quantity of each result, and what it is about: ``("throw", "H1 at F1")``."""
+        return self.frame.labels
+
+    @cached_property
+    def values(self) -> np.ndarray:
+        """The results of all members, NaN where one has none, shape (members, results)."""
+        return np.array([member.values for member in self.members]).reshape(len(self.members), len(self.labels))
+
+    @property
+    def drawn(self) -> np.ndarray:
+        """The results of the hypothesis as drawn, shape (results,)."""
+        measures, _ = self.study.reference
+        return np.array([measures[label] for label in self.labels])
+
+    def percentiles(self, percents: Sequence[float] = PERCENTS) -> dict[Label, np.ndarray]:
+        """Percentiles of each result over the members that have it; NaN if none has."""
+        return {label: _percentiles(column, percents) for label, column in zip(self.labels, self.values.T, strict=True)}
+
+    @cached_property
+    def shares(self) -> dict[str, np.ndarray]:
+        """First-order share of each result's variance by input, each of shape (results,); see `shares_method`.
+
+        NaN where the members are too few, about 1.5 for each number that is drawn, or the result does not vary.
+        """
+        uncertainty, perturbation = self.study.uncertainty, self.study.perturbation
+        draws = [perturbation.draw(member.index) for member in self.members]
+        varied = [name for name in INPUTS if getattr(uncertainty, name) and self.members]
+        return first_order_shares({name: np.array([draw[name] for draw in draws]) for name in varied}, self.values)
+
+    @property
+    def shares_method(self) -> str:
+        """How the shares are computed."""
+        return METHOD
+
+    @cached_property
+    def depths(self) -> np.ndarray:
+        """Depths of the restored horizons of all members, shape (members, horizons, positions)."""
+        shape = len(self.members), len(self.frame.horizons), len(self.frame.x)
+        return np.array([member.depths for member in self.members]).reshape(shape)
+
+    @property
+    def horizon_mean(self) -> np.ndarray:
+        """Mean depth of each restored horizon along ``frame.x``, shape (horizons, positions)."""
+        return _mean(self.depths)
+
+    @property
+    def horizon_spread(self) -> np.ndarray:
+        """Standard deviation of these depths; NaN with fewer than two members."""
+        return _spread(self.depths)
+
+    @cached_property
+    def ratios(self) -> np.ndarray:
+        """Area ratio of all members at ``frame.nodes``, shape (members, nz, nx)."""
+        shape = len(self.members), *self.frame.nodes.shape[:2]
+        return np.array([member.ratio for member in self.members]).reshape(shape)
+
+    @property
+    def ratio_mean(self) -> np.ndarray:
+        """Mean area ratio, shape (nz, nx)."""
+        return _mean(self.ratios)
+
+    @property
+    def ratio_spread(self) -> np.ndarray:
+        """Standard deviation of the area ratio, shape (nz, nx)."""
+        return _spread(self.ratios)
+
+    @property
+    def refused(self) -> tuple[Member, ...]:
+        """The members that were refused, or did not settle, each with its ``problem``."""
+        return tuple(member for member in self.members if member.problem)
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """A finding for each reason why members have no restoration, the most frequent first."""
+        reasons: dict[str, list[int]] = {}
+        for member in self.refused:
+            reasons.setdefault(member.problem, []).append(member.index)
+        ordered = sorted(reasons.items(), key=lambda item: -len(item[1]))
+        return tuple(
+            Finding(
+                "warning", "member", f"{len(indices)} of {len(self.members)} members, such as {indices[0]}: {reason}"
+            )
+            for reason, indices in ordered
+        )
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """A table as text: result, unit, its percentiles 5, 50 and 95, and the input that explains most of it."""
+        section, percentiles = self.study.drawn.section, self.percentiles()
+        rows = []
+        for index, (quantity, about) in enumerate(self.labels):
+            unit = "%" if quantity in SHARES else unit_of(quantity, section)
+            scale = 100 if quantity in SHARES else 1
+            numbers = [f"{scale * value:.4g}" for value in percentiles[quantity, about]]
+            rows.append((f"{quantity} {about}".strip(), unit, *numbers, self._main_input(index)))
+        return rows
+
+    def _main_input(self, index: int) -> str:
+        shares = {name: share[index] for name, share in self.shares.items() if np.isfinite(share[index])}
+        if not shares:
+            return ""
+        name = max(shares, key=lambda name: shares[name])
+        return f"{name} {shares[name]:.0%}"
+
+    @property
+    def summary(self) -> str:
+        """One line: how many members, and how many of them have no restoration."""
+        count = len(self.refused)
+        without = f"; {count} refused or not settled" if count else ""
+        return f"{len(self.members)} members, seed {self.study.seed}{without}"
+
+    def __str__(self) -> str:
+        lines = ["  ".join(row) for row in self.rows()]
+        return "\n".join([self.summary, *lines, *(finding.text for finding in self.findings)])
+
+    def _repr_html_(self) -> str:
+        heads = ("result", "unit", *(f"P{percent:g}" for percent in PERCENTS), "explained most by")
+        table = [_html_row("th", heads), *(_html_row("td", row) for row in self.rows())]
+        notes = "".join(f"<li>{escape(finding.text)}</li>" for finding in self.findings)
+        return f"<p>{escape(self.summary)}</p><table>{''.join(table)}</table>" + (f"<ul>{notes}</ul>" if notes else "")
+
+
+def _html_row(tag: str, cells: Sequence[str]) -> str:
+    return "<tr>" + "".join(f'<{tag} style="text-align: left">{escape(cell)}</{tag}>' for cell in cells) + "</tr>"
+
+
+def _percentiles(values: np.ndarray, percents: Sequence[float]) -> np.ndarray:
+    known = values[np.isfinite(values)]
+    return np.percentile(known, percents) if len(known) else np.full(len(percents), np.nan)
+
+
+def _mean(values: np.ndarray) -> np.ndarray:
+    """Mean over the first axis without NaN; NaN where there is none."""
+    known = np.isfinite(values)
+    count = known.sum(axis=0)
+    return np.where(count > 0, np.where(known, values, 0).sum(axis=0) / np.maximum(count, 1), np.nan)
+
+
+def _spread(values: np.ndarray) -> np.ndarray:
+    """Standard deviation over the first axis without NaN; NaN where there are fewer than two."""
+    count = np.isfinite(values).sum(axis=0)
+    squares = np.where(np.isfinite(values), (values - _mean(values)) ** 2, 0).sum(axis=0)
+    return np.where(count > 1, np.sqrt(squares / np.maximum(count - 1, 1)), np.nan)

@@ -1,0 +1,223 @@
+"""The uncertainty of an interpretation, and interpretations drawn from it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import shapely
+from shapely import LineString
+
+from seiswidgets.core.correlated_noise import noise_kernels
+from seiswidgets.errors import SettingError
+from seiswidgets.geology import validation
+from seiswidgets.geology.bodies import Body
+from seiswidgets.geology.fault_lines import NEAR
+from seiswidgets.geology.picks import AUTO, EXTEND, Ends, Fault, Horizon, Interpretation, both_ends
+from seiswidgets.geology.plan import Plan
+from seiswidgets.geology.section import Section
+
+INPUTS = ("horizon", "fault", "dip", "velocity")
+DETAIL = 3  # points of a perturbed line for each correlation length
+STEEPEST = 45.0  # degrees: the largest deviation of a dip
+
+Draw = dict[str, np.ndarray]  # independent standard normal numbers by input
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Standard deviations of what an interpretation rests on; 0 leaves an input as it is.
+
+    Parameters
+    ----------
+    horizon : float
+        Of the picks of horizons, in samples, up and down.
+    fault : float
+        Of the picks of faults, in traces, across the fault (in samples where it is flat).
+    correlation_length : float
+        Distance along a line over which errors of picks are alike, in metres of rock: two points as far apart have a
+        correlation of 0.61, at twice that 0.14. Errors of two pieces, or of two picks, are independent.
+    dip : float
+        Of the dip of each fault, which turns about its middle, in degrees.
+    velocity : float
+        Of the velocity, as a share of it. In a section in depth, all depths grow with it.
+
+    Raises
+    ------
+    SettingError
+        If a deviation is negative or not a number, the correlation length is not above 0, or the dip's is above 45.
+    """
+
+    horizon: float = 0.0
+    fault: float = 0.0
+    correlation_length: float = 500.0
+    dip: float = 0.0
+    velocity: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in (*INPUTS, "correlation_length"):
+            value = validation.finite_number(name, getattr(self, name))
+            if value < 0:
+                raise SettingError(f"{name} is a standard deviation, 0 or more, but is {value:g}")
+            object.__setattr__(self, name, value)
+        if self.correlation_length == 0:
+            raise SettingError("correlation_length must be above 0 m; a short one makes errors independent")
+        if self.dip > STEEPEST:
+            raise SettingError(f"dip must be at most {STEEPEST:g} degrees, but is {self.dip:g}")
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """A section, its interpretation, and the plan to restore it."""
+
+    section: Section
+    interpretation: Interpretation
+    plan: Plan
+
+
+@dataclass(frozen=True, eq=False)
+class NoisyLine:
+    """A line with enough points for its errors, in the section's units.
+
+    Attributes
+    ----------
+    points : array, shape (n, 2)
+    across : array, shape (n, 2)
+        Displacement by an error of one cell.
+    kernels : array, shape (n, m)
+        See `noise_kernels`.
+    """
+
+    points: np.ndarray
+    across: np.ndarray
+    kernels: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Perturbation:
+    """Draws hypotheses around one: the same line errors, turns and velocities for the same seed and index.
+
+    Parameters
+    ----------
+    drawn : Hypothesis
+    uncertainty : Uncertainty
+    seed : int
+    """
+
+    drawn: Hypothesis
+    uncertainty: Uncertainty
+    seed: int = 0
+
+    def draw(self, index: int) -> Draw:
+        """Draw the numbers of a member, each input from a stream of its own."""
+        streams = (np.random.SeedSequence(self.seed, spawn_key=(index, which)) for which in range(len(INPUTS)))
+        numbers = zip(INPUTS, self._counts, streams, strict=True)
+        return {name: np.random.default_rng(stream).standard_normal(count) for name, count, stream in numbers}
+
+    def hypothesis(self, index: int) -> Hypothesis:
+        """The hypothesis of a member."""
+        draw, section = self.draw(index), self.drawn.section
+        horizon, turns = iter(self._errors("horizon", draw)), iter(np.radians(self.uncertainty.dip * draw["dip"]))
+        fault = iter(self._errors("fault", draw))
+        picks = self.drawn.interpretation
+        horizons = [self._moved_horizon(pick, horizon) for pick in picks.horizons]
+        faults = [self._moved_fault(pick, fault, next(turns)) for pick in picks.faults]
+        factor = float(np.exp(self.uncertainty.velocity * draw["velocity"][0]))
+        moved = replace(self.drawn, interpretation=Interpretation(faults, horizons, picks.bodies))
+        if factor == 1:
+            return moved
+        if section.velocity is not None:
+            return replace(moved, section=replace(section, velocity=section.velocity * factor))
+        return stretched(moved, factor)
+
+    @property
+    def _counts(self) -> tuple[int, ...]:
+        lines = [sum(line.kernels.shape[1] for line in group) for group in (self._horizons, self._faults)]
+        return *lines, len(self.drawn.interpretation.faults), 1
+
+    def _errors(self, kind: str, draw: Draw) -> Iterator[np.ndarray]:
+        """Points of each line after its errors."""
+        start, deviation = 0, getattr(self.uncertainty, kind)
+        for line in self._horizons if kind == "horizon" else self._faults:
+            numbers = draw[kind][start : start + line.kernels.shape[1]]
+            start += len(numbers)
+            yield line.points + deviation * (line.kernels @ numbers)[:, None] * line.across
+
+    def _moved_horizon(self, pick: Horizon, errors: Iterator[np.ndarray]) -> Horizon:
+        pieces = [next(errors) for _ in pick.pieces]
+        return Horizon(*pieces, name=pick.name, use=pick.use) if self.uncertainty.horizon else pick
+
+    def _moved_fault(self, pick: Fault, errors: Iterator[np.ndarray], turn: float) -> Fault:
+        points = next(errors)
+        if not (self.uncertainty.fault or turn):
+            return pick
+        if turn:
+            rock = self.drawn.section.to_rock(points)
+            middle = np.array(LineString(rock).interpolate(0.5, normalized=True).coords[0])
+            turned = middle + (rock - middle) @ [[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]
+            points = self.drawn.section.from_rock(turned)
+        return Fault(points, pick.name, ends=self._ends(pick), use=pick.use)
+
+    def _ends(self, fault: Fault) -> Ends:
+        """The ends of a fault; one that nearly meets the border goes on meeting it, wherever it moves."""
+        x_min, x_max, z_min, z_max = self.drawn.section.extent
+        border = shapely.box(x_min, z_min, x_max, z_max)
+        cell = np.array([self.drawn.section.dx, self.drawn.section.dz])
+
+        def end(choice: str, point: np.ndarray) -> str:
+            at = shapely.Point(point)
+            nearest = np.array(border.exterior.interpolate(border.exterior.project(at)).coords[0])
+            meets = not border.contains(at) or np.hypot(*((nearest - point) / cell)) <= NEAR
+            return EXTEND if choice == AUTO and meets else choice
+
+        first, last = both_ends(fault.ends)
+        return end(first, fault.points[0]), end(last, fault.points[-1])
+
+    @cached_property
+    def _horizons(self) -> list[NoisyLine]:
+        pieces = (piece for pick in self.drawn.interpretation.horizons for piece in pick.pieces)
+        return [self._noisy(piece, level=True) for piece in pieces]
+
+    @cached_property
+    def _faults(self) -> list[NoisyLine]:
+        return [self._noisy(pick.points, level=False) for pick in self.drawn.interpretation.faults]
+
+    def _noisy(self, points: np.ndarray, level: bool) -> NoisyLine:
+        section, length = self.drawn.section, self.uncertainty.correlation_length
+        rock = shapely.get_coordinates(LineString(section.to_rock(points)).segmentize(length / DETAIL))
+        arc_length = np.append(0, np.cumsum(np.hypot(*np.diff(rock, axis=0).T)))
+        points, cell = section.from_rock(rock), np.array([section.dx, section.dz])
+        across = np.tile([0.0, 1.0], (len(points), 1))
+        if not level:
+            along = np.gradient(points / cell, axis=0)
+            across = along[:, ::-1] * [1, -1] / np.maximum(np.hypot(*along.T), np.finfo(float).tiny)[:, None]
+        return NoisyLine(points, across * cell, noise_kernels(arc_length, length))
+
+
+def stretched(drawn: Hypothesis, factor: float) -> Hypothesis:
+    """A hypothesis with all depths multiplied by a factor, as another velocity makes them."""
+    section, picks, plan = drawn.section, drawn.interpretation, drawn.plan
+    scale = np.array([1.0, factor])
+
+    def points(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+        return tuple((x, z * factor) for x, z in rows)
+
+    faults = [replace(pick, points=pick.points * scale) for pick in picks.faults]
+    horizons = [
+        Horizon(*(piece * scale for piece in pick.pieces), name=pick.name, use=pick.use) for pick in picks.horizons
+    ]
+    bodies = [Body(body.points * scale, body.kind, body.name) for body in picks.bodies]
+    regional = plan.regional
+    return Hypothesis(
+        replace(section, dz=section.dz * factor, z0=section.z0 * factor),
+        Interpretation(faults, horizons, bodies),
+        replace(
+            plan,
+            steps=tuple(
+                replace(step, datum=None if step.datum is None else step.datum * factor) for step in plan.steps
+            ),
+            fixed=points((plan.fixed,))[0] if plan.fixed else None,
+            pins=points(plan.pins),
+            regional=regional * factor if isinstance(regional, float) else regional and points(regional),
+        ),
+    )

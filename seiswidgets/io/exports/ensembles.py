@@ -1,0 +1,69 @@
+"""Ensembles as datasets of xarray, which can write NetCDF."""
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from seiswidgets.geology.ensembles.ensemble import PERCENTS, Ensemble
+from seiswidgets.geology.measures import HEAVE, MEANING, ROTATION, THROW, unit_of
+from seiswidgets.io.files import import_optional
+
+if TYPE_CHECKING:
+    import xarray
+
+DIMENSIONS = {THROW: "cutoff", HEAVE: "cutoff", ROTATION: "block"}  # what a quantity is about; others: horizons, or all
+
+Variable = tuple[tuple[str, ...], np.ndarray, dict[str, str]]
+
+
+def ensemble_dataset(ensemble: Ensemble) -> "xarray.Dataset":
+    """The results of an ensemble, by member; see `to_xarray`."""
+    section, frame = ensemble.study.drawn.section, ensemble.frame
+    coordinates: dict[str, Any] = {
+        "member": [member.index for member in ensemble.members],
+        "percent": list(PERCENTS),
+        "input": list(ensemble.shares),
+    }
+    variables: dict[str, Variable] = {}
+    for quantity in dict.fromkeys(quantity for quantity, _ in ensemble.labels):
+        indices = [index for index, label in enumerate(ensemble.labels) if label[0] == quantity]
+        abouts = [ensemble.labels[index][1] for index in indices]
+        if abouts == [""]:
+            variables |= _of_quantity(ensemble, quantity, indices, ())
+        else:
+            dimension = DIMENSIONS.get(quantity, "horizon")
+            coordinates[dimension] = abouts
+            variables |= _of_quantity(ensemble, quantity, indices, (dimension,))
+    problems = np.array([member.problem for member in ensemble.members], dtype=str)
+    variables["problem"] = ("member",), problems, {"long_name": "why a member has no restoration; empty if it has one"}
+    if frame.nodes.size:
+        unit = {"units": section.z_unit, "long_name": "depth of restored horizons", "positive": "down"}
+        variables["restored_depth"] = ("member", "horizon", "position"), ensemble.depths, unit
+        ratio = {"units": "1", "long_name": "present-day area over restored area"}
+        variables["area_ratio"] = ("member", "z", "x"), ensemble.ratios, ratio
+        coordinates["position"] = "position", frame.x, {"units": section.x_unit, "long_name": "distance"}
+        coordinates["x"] = "x", frame.nodes[0, :, 0], {"units": section.x_unit, "long_name": "distance"}
+        coordinates["z"] = "z", frame.nodes[:, 0, 1], {"units": section.z_unit, "positive": "down"}
+    deviations = {f"uncertainty_{name}": value for name, value in asdict(ensemble.study.uncertainty).items()}
+    attributes = {"seed": ensemble.study.seed, "shares_method": ensemble.shares_method, **deviations}
+    xarray = import_optional("xarray", "to make an xarray.Dataset")
+    return xarray.Dataset(variables, coordinates, attributes)  # type: ignore[no-any-return]  # xarray is optional
+
+
+def _of_quantity(
+    ensemble: Ensemble, quantity: str, indices: list[int], dimensions: tuple[str, ...]
+) -> dict[str, Variable]:
+    """Values, percentiles and shares of variance of a quantity."""
+    name, chosen = quantity.replace(" ", "_"), np.array(indices) if dimensions else indices[0]
+    described = {"units": unit_of(quantity, ensemble.study.drawn.section), "long_name": MEANING[quantity]}
+    percentiles = np.array([ensemble.percentiles()[label] for label in ensemble.labels]).T[:, chosen]
+    variables: dict[str, Variable] = {
+        name: (("member", *dimensions), ensemble.values[:, chosen], described),
+        f"{name}_percentile": (("percent", *dimensions), percentiles, described),
+    }
+    if ensemble.shares:
+        shares = np.array(list(ensemble.shares.values()))[:, chosen]
+        about = {"units": "1", "long_name": f"share of the variance of {quantity} by input"}
+        variables[f"{name}_share"] = ("input", *dimensions), shares, about
+    return variables
