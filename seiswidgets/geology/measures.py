@@ -12,12 +12,13 @@ from seiswidgets.geology.plan import UNFAULT
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 
-THROW, HEAVE, EXTENSION, BED_LENGTH = "throw", "heave", "extension", "bed length"
+THROW, HEAVE, SLIP, EXTENSION, BED_LENGTH = "throw", "heave", "slip", "extension", "bed length"
 BED_CHANGE, AREA_CHANGE, ROTATION, DEFORMATION = "bed change", "area change", "rotation", "deformation"
 SHARES = (EXTENSION, BED_CHANGE, AREA_CHANGE, DEFORMATION)
 MEANING = {
     THROW: "vertical distance between two cut-offs; positive if normal",
     HEAVE: "horizontal distance between two cut-offs; positive if normal",
+    SLIP: "mean of the least and the largest slip prescribed along a fault",
     EXTENSION: "present-day over restored distance between a horizon's ends, less 1",
     BED_LENGTH: "length of a horizon after restoring",
     BED_CHANGE: "restored over present-day length of a horizon, less 1",
@@ -33,7 +34,7 @@ Measures = dict[Label, float]
 
 def unit_of(quantity: str, section: Section) -> str:
     """The unit of a quantity; "1" for a share."""
-    units = {THROW: section.z_unit, HEAVE: section.x_unit, BED_LENGTH: "m", ROTATION: "degrees"}
+    units = {THROW: section.z_unit, HEAVE: section.x_unit, SLIP: "m", BED_LENGTH: "m", ROTATION: "degrees"}
     return units.get(quantity, "1")
 
 
@@ -72,6 +73,7 @@ def measure_restoration(restored: Restoration, interpretation: Interpretation) -
     found[DEFORMATION, ""] = largest_deformation(restored)
     for stage in restored.stages:
         if stage.kind == UNFAULT:
+            found |= {(SLIP, slip.fault): (slip.least + slip.most) / 2 for slip in stage.report.slips}
             for motion in stage.report.motions:
                 found[ROTATION, motion.part] = found.get((ROTATION, motion.part), 0.0) + motion.rotation
     return found

@@ -10,7 +10,8 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.ensembles.ensemble import Ensemble
 from seiswidgets.geology.ensembles.member import Member, Study
 from seiswidgets.geology.ensembles.running import complete, iterate_members
-from seiswidgets.geology.ensembles.uncertainty import Hypothesis, Uncertainty
+from seiswidgets.geology.ensembles.uncertainty import Uncertainty
+from seiswidgets.geology.hypothesis import Hypothesis
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section

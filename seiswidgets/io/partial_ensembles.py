@@ -5,6 +5,7 @@ and its arrays as NumPy writes them. Records are only appended. A record that a 
 overwritten.
 """
 
+import errno
 import io
 import struct
 import zipfile
@@ -81,7 +82,7 @@ class PartialEnsemble:
         try:
             written = self._file.write(record)
             if written != len(record):
-                raise OSError(28, "No space left on device")
+                raise OSError(errno.ENOSPC, "No space left on device")
         except OSError as error:
             self._file.truncate(start)
             raise DataError(

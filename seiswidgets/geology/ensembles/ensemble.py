@@ -67,7 +67,7 @@ class Ensemble:
         NaN where the members are too few, about 1.5 for each number that is drawn, or the result does not vary.
         """
         uncertainty, perturbation = self.study.uncertainty, self.study.perturbation
-        draws = [perturbation.draw(member.index) for member in self.members]
+        draws = [perturbation.explanatory(member.index) for member in self.members]
         varied = [name for name in INPUTS if getattr(uncertainty, name) and self.members]
         return first_order_shares({name: np.array([draw[name] for draw in draws]) for name in varied}, self.values)
 

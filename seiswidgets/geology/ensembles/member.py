@@ -8,7 +8,8 @@ import numpy as np
 
 from seiswidgets.errors import SeiswidgetsError
 from seiswidgets.geology.bodies import Body
-from seiswidgets.geology.ensembles.uncertainty import Hypothesis, Perturbation, Uncertainty
+from seiswidgets.geology.ensembles.uncertainty import Perturbation, Uncertainty
+from seiswidgets.geology.hypothesis import Hypothesis, with_slip
 from seiswidgets.geology.measures import (
     Label,
     Measures,
@@ -17,7 +18,6 @@ from seiswidgets.geology.measures import (
     measure_restoration,
 )
 from seiswidgets.geology.picks import IGNORE, Fault, Horizon
-from seiswidgets.geology.plan import RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 
@@ -67,7 +67,7 @@ class Study:
 
     def __post_init__(self) -> None:
         section = self.drawn.section
-        bare = replace(section, amplitude=np.zeros(section.shape, np.float32))
+        bare = replace(section, amplitude=np.zeros(section.shape, np.float32), conversion=None)
         object.__setattr__(self, "drawn", replace(self.drawn, section=bare))
 
     @cached_property
@@ -98,9 +98,9 @@ class Study:
 
     @cached_property
     def reference(self) -> tuple[Measures, Restoration]:
-        """Measures and restoration of the hypothesis as it was drawn; raises what its restoration raises."""
-        drawn = self.drawn
-        restored = RestorationJob(drawn.section, drawn.interpretation, drawn.plan).restored()
+        """Measures and restoration as drawn, with the likeliest matches; raises what its restoration raises."""
+        drawn = with_slip(self.drawn, self.perturbation.likeliest)
+        restored = drawn.restored()
         return measure_picks(drawn.interpretation) | measure_restoration(restored, drawn.interpretation), restored
 
     @cached_property
@@ -155,7 +155,7 @@ def compute_member(study_and_frame: tuple[Study, Frame], index: int) -> Member:
     try:
         hypothesis = study.perturbation.hypothesis(index)
         measures = measure_picks(hypothesis.interpretation)
-        restored = RestorationJob(hypothesis.section, hypothesis.interpretation, hypothesis.plan).restored()
+        restored = hypothesis.restored()
         problem = _problem(restored, frame)
         if not problem:
             return measured(hypothesis, restored, study, frame, index, measures)

@@ -1,27 +1,28 @@
 """The uncertainty of an interpretation, and interpretations drawn from it."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 import shapely
+from scipy.special import ndtr
 from shapely import LineString
 
 from seiswidgets.core.correlated_noise import noise_kernels
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
-from seiswidgets.geology.bodies import Body
 from seiswidgets.geology.fault_lines import NEAR
+from seiswidgets.geology.hypothesis import Hypothesis, with_slip, with_velocity
 from seiswidgets.geology.picks import AUTO, EXTEND, Ends, Fault, Horizon, Interpretation, both_ends
-from seiswidgets.geology.plan import Plan
-from seiswidgets.geology.section import Section
+from seiswidgets.geology.slip_profile import SlipProfile
 
-INPUTS = ("horizon", "fault", "dip", "velocity")
+INPUTS = ("horizon", "fault", "dip", "velocity", "matches")
 DETAIL = 3  # points of a perturbed line for each correlation length
 STEEPEST = 45.0  # degrees: the largest deviation of a dip
 
 Draw = dict[str, np.ndarray]  # independent standard normal numbers by input
+Choices = Mapping[str, Sequence[tuple[SlipProfile, float]]]
 
 
 @dataclass(frozen=True)
@@ -41,11 +42,15 @@ class Uncertainty:
         Of the dip of each fault, which turns about its middle, in degrees.
     velocity : float
         Of the velocity, as a share of it. In a section in depth, all depths grow with it.
+    matches : dict of str to list of (SlipProfile, weight)
+        Slips that are possible along a fault, by its name: each member takes one, as often as its weight says, in all
+        steps that unfault.
 
     Raises
     ------
     SettingError
-        If a deviation is negative or not a number, the correlation length is not above 0, or the dip's is above 45.
+        If a deviation is negative or not a number, the correlation length is not above 0, the dip's is above 45, or a
+        match is not a slip with a weight.
     """
 
     horizon: float = 0.0
@@ -53,9 +58,10 @@ class Uncertainty:
     correlation_length: float = 500.0
     dip: float = 0.0
     velocity: float = 0.0
+    matches: Choices = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
-        for name in (*INPUTS, "correlation_length"):
+        for name in ("horizon", "fault", "dip", "velocity", "correlation_length"):
             value = validation.finite_number(name, getattr(self, name))
             if value < 0:
                 raise SettingError(f"{name} is a standard deviation, 0 or more, but is {value:g}")
@@ -64,15 +70,23 @@ class Uncertainty:
             raise SettingError("correlation_length must be above 0 m; a short one makes errors independent")
         if self.dip > STEEPEST:
             raise SettingError(f"dip must be at most {STEEPEST:g} degrees, but is {self.dip:g}")
+        checked = {name: _checked_choices(name, choices) for name, choices in dict(self.matches).items()}
+        object.__setattr__(self, "matches", checked)
 
 
-@dataclass(frozen=True, eq=False)
-class Hypothesis:
-    """A section, its interpretation, and the plan to restore it."""
-
-    section: Section
-    interpretation: Interpretation
-    plan: Plan
+def _checked_choices(name: str, choices: Sequence[tuple[SlipProfile, float]]) -> tuple[tuple[SlipProfile, float], ...]:
+    """Validate the matches of a fault; their weights are made to add up to 1."""
+    try:
+        profiles, weights = zip(*choices, strict=True)
+        shares = np.array([validation.finite_number("the weight of a match", weight) for weight in weights])
+    except (TypeError, ValueError):
+        profiles, shares = (), np.zeros(0)
+    if not (shares >= 0).all() or not shares.any() or not all(isinstance(one, SlipProfile) for one in profiles):
+        raise SettingError(
+            f"the matches of fault {name!r} must be pairs of a seiswidgets.SlipProfile and a weight of 0 or more, not "
+            "all of them 0"
+        )
+    return tuple(zip(profiles, (shares / shares.sum()).tolist(), strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,24 +130,40 @@ class Perturbation:
 
     def hypothesis(self, index: int) -> Hypothesis:
         """The hypothesis of a member."""
-        draw, section = self.draw(index), self.drawn.section
+        draw, picks = self.draw(index), self.drawn.interpretation
         horizon, turns = iter(self._errors("horizon", draw)), iter(np.radians(self.uncertainty.dip * draw["dip"]))
         fault = iter(self._errors("fault", draw))
-        picks = self.drawn.interpretation
         horizons = [self._moved_horizon(pick, horizon) for pick in picks.horizons]
         faults = [self._moved_fault(pick, fault, next(turns)) for pick in picks.faults]
-        factor = float(np.exp(self.uncertainty.velocity * draw["velocity"][0]))
         moved = replace(self.drawn, interpretation=Interpretation(faults, horizons, picks.bodies))
-        if factor == 1:
-            return moved
-        if section.velocity is not None:
-            return replace(moved, section=replace(section, velocity=section.velocity * factor))
-        return stretched(moved, factor)
+        chosen = {name: self.uncertainty.matches[name][k][0] for name, k in self._chosen(draw).items()}
+        factor = float(np.exp(self.uncertainty.velocity * draw["velocity"][0]))
+        return with_velocity(with_slip(moved, chosen), factor)
+
+    def explanatory(self, index: int) -> Draw:
+        """The numbers of a member that a regression can use: of a choice, 1 for what was chosen, 0 for the rest."""
+        draw = self.draw(index)
+        chosen = self._chosen(draw)
+        flags = [np.arange(1, len(one)) == chosen[name] for name, one in self.uncertainty.matches.items()]
+        return {**draw, "matches": np.concatenate([*flags, np.zeros(0)])}
+
+    @property
+    def likeliest(self) -> dict[str, SlipProfile]:
+        """The match of each fault that has the largest weight."""
+        return {name: max(one, key=lambda pair: pair[1])[0] for name, one in self.uncertainty.matches.items()}
+
+    def _chosen(self, draw: Draw) -> dict[str, int]:
+        """Index of the match of each fault."""
+        chosen = {}
+        for (name, choices), number in zip(self.uncertainty.matches.items(), draw["matches"], strict=True):
+            through = np.cumsum([weight for _, weight in choices])
+            chosen[name] = min(int(np.searchsorted(through, ndtr(number))), len(choices) - 1)
+        return chosen
 
     @property
     def _counts(self) -> tuple[int, ...]:
         lines = [sum(line.kernels.shape[1] for line in group) for group in (self._horizons, self._faults)]
-        return *lines, len(self.drawn.interpretation.faults), 1
+        return *lines, len(self.drawn.interpretation.faults), 1, len(self.uncertainty.matches)
 
     def _errors(self, kind: str, draw: Draw) -> Iterator[np.ndarray]:
         """Points of each line after its errors."""
@@ -192,32 +222,3 @@ class Perturbation:
             along = np.gradient(points / cell, axis=0)
             across = along[:, ::-1] * [1, -1] / np.maximum(np.hypot(*along.T), np.finfo(float).tiny)[:, None]
         return NoisyLine(points, across * cell, noise_kernels(arc_length, length))
-
-
-def stretched(drawn: Hypothesis, factor: float) -> Hypothesis:
-    """A hypothesis with all depths multiplied by a factor, as another velocity makes them."""
-    section, picks, plan = drawn.section, drawn.interpretation, drawn.plan
-    scale = np.array([1.0, factor])
-
-    def points(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
-        return tuple((x, z * factor) for x, z in rows)
-
-    faults = [replace(pick, points=pick.points * scale) for pick in picks.faults]
-    horizons = [
-        Horizon(*(piece * scale for piece in pick.pieces), name=pick.name, use=pick.use) for pick in picks.horizons
-    ]
-    bodies = [Body(body.points * scale, body.kind, body.name) for body in picks.bodies]
-    regional = plan.regional
-    return Hypothesis(
-        replace(section, dz=section.dz * factor, z0=section.z0 * factor),
-        Interpretation(faults, horizons, bodies),
-        replace(
-            plan,
-            steps=tuple(
-                replace(step, datum=None if step.datum is None else step.datum * factor) for step in plan.steps
-            ),
-            fixed=points((plan.fixed,))[0] if plan.fixed else None,
-            pins=points(plan.pins),
-            regional=regional * factor if isinstance(regional, float) else regional and points(regional),
-        ),
-    )

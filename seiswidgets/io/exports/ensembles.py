@@ -6,13 +6,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seiswidgets.geology.ensembles.ensemble import PERCENTS, Ensemble
-from seiswidgets.geology.measures import HEAVE, MEANING, ROTATION, THROW, unit_of
+from seiswidgets.geology.measures import HEAVE, MEANING, ROTATION, SLIP, THROW, unit_of
 from seiswidgets.io.files import import_optional
 
 if TYPE_CHECKING:
     import xarray
 
-DIMENSIONS = {THROW: "cutoff", HEAVE: "cutoff", ROTATION: "block"}  # what a quantity is about; others: horizons, or all
+DIMENSIONS = {
+    THROW: "cutoff",
+    HEAVE: "cutoff",
+    ROTATION: "block",
+    SLIP: "fault",
+}  # what a quantity is about; others: horizons, or all
 
 Variable = tuple[tuple[str, ...], np.ndarray, dict[str, str]]
 
@@ -45,10 +50,14 @@ def ensemble_dataset(ensemble: Ensemble) -> "xarray.Dataset":
         coordinates["position"] = "position", frame.x, {"units": section.x_unit, "long_name": "distance"}
         coordinates["x"] = "x", frame.nodes[0, :, 0], {"units": section.x_unit, "long_name": "distance"}
         coordinates["z"] = "z", frame.nodes[:, 0, 1], {"units": section.z_unit, "positive": "down"}
-    deviations = {f"uncertainty_{name}": value for name, value in asdict(ensemble.study.uncertainty).items()}
-    attributes = {"seed": ensemble.study.seed, "shares_method": ensemble.shares_method, **deviations}
+    deviations = {name: value for name, value in asdict(ensemble.study.uncertainty).items() if name != "matches"}
+    attributes = {
+        "seed": ensemble.study.seed,
+        "shares_method": ensemble.shares_method,
+        **{f"uncertainty_{name}": value for name, value in deviations.items()},
+    }
     xarray = import_optional("xarray", "to make an xarray.Dataset")
-    return xarray.Dataset(variables, coordinates, attributes)  # type: ignore[no-any-return]  # xarray is optional
+    return xarray.Dataset(variables, coordinates, attributes)
 
 
 def _of_quantity(

@@ -45,7 +45,7 @@ def to_xarray(section: Section | Ensemble) -> "xarray.DataArray | xarray.Dataset
     """Convert a section to an array of dimensions ("z", "x"), with units and the rest in coordinates and attributes.
 
     An ensemble becomes a Dataset: each quantity by ``member``, with its percentiles and its shares of variance, the
-    depths of restored horizons, and the area ratios. Quantities that restoring gives are NaN in members with a ``problem``.
+    depths of restored horizons, and the area ratios. What restoring gives is NaN in members with a ``problem``.
 
     Raises
     ------

@@ -1,0 +1,104 @@
+"""Hypotheses: an interpretation of a section with a plan to restore it, and what slips and velocities change in it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from seiswidgets.geology.bodies import Body
+from seiswidgets.geology.picks import Horizon, Interpretation
+from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob
+from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.section import Section
+from seiswidgets.geology.slip_profile import SlipProfile
+from seiswidgets.geology.validation import checked_kind
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """An interpretation of a section, and the plan to restore it.
+
+    Parameters
+    ----------
+    section : Section
+    interpretation : Interpretation
+    plan : Plan
+    name : str
+
+    Raises
+    ------
+    SettingError
+        If one of them has the wrong type.
+    """
+
+    section: Section
+    interpretation: Interpretation
+    plan: Plan = field(default_factory=Plan)
+    name: str = "hypothesis"
+
+    def __post_init__(self) -> None:
+        for name, kind in (("section", Section), ("interpretation", Interpretation), ("plan", Plan), ("name", str)):
+            checked_kind(getattr(self, name), kind, name)
+
+    def restored(self) -> Restoration:
+        """Carry the plan out; errors as for `Plan.restore`."""
+        return RestorationJob(self.section, self.interpretation, self.plan).restored()
+
+
+def with_slip(hypothesis: Hypothesis, slip: Mapping[str, SlipProfile]) -> Hypothesis:
+    """A hypothesis in which all steps that unfault prescribe a slip along some faults."""
+    plan = hypothesis.plan
+    steps = (replace(step, slip={**step.slip, **slip}) if step.kind == UNFAULT else step for step in plan.steps)
+    return replace(hypothesis, plan=replace(plan, steps=tuple(steps))) if slip else hypothesis
+
+
+def with_velocity(hypothesis: Hypothesis, factor: float) -> Hypothesis:
+    """A hypothesis in which the velocity is a multiple of what it was: in depth, all depths grow with it.
+
+    Slips, measured along faults, grow as if those were upright.
+    """
+    if factor == 1:
+        return hypothesis
+    section, plan = hypothesis.section, hypothesis.plan
+    steps = tuple(
+        replace(step, slip={name: _grown(profile, factor) for name, profile in step.slip.items()})
+        for step in plan.steps
+    )
+    hypothesis = replace(hypothesis, plan=replace(plan, steps=steps))
+    if section.velocity is not None:
+        return replace(hypothesis, section=replace(section, velocity=section.velocity * factor))
+    return _deepened(hypothesis, factor)
+
+
+def _grown(profile: SlipProfile, factor: float) -> SlipProfile:
+    return SlipProfile(*(tuple(factor * value for value in values) for values in (profile.s, profile.slip)))
+
+
+def _deepened(hypothesis: Hypothesis, factor: float) -> Hypothesis:
+    section, picks, plan = hypothesis.section, hypothesis.interpretation, hypothesis.plan
+    scale = np.array([1.0, factor])
+
+    def deeper(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+        return tuple((x, z * factor) for x, z in rows)
+
+    horizons = [
+        Horizon(*(piece * scale for piece in pick.pieces), name=pick.name, use=pick.use) for pick in picks.horizons
+    ]
+    steps = (replace(step, datum=None if step.datum is None else step.datum * factor) for step in plan.steps)
+    regional = plan.regional
+    return replace(
+        hypothesis,
+        section=replace(section, dz=section.dz * factor, z0=section.z0 * factor),
+        interpretation=Interpretation(
+            [replace(pick, points=pick.points * scale) for pick in picks.faults],
+            horizons,
+            [Body(body.points * scale, body.kind, body.name) for body in picks.bodies],
+        ),
+        plan=replace(
+            plan,
+            steps=tuple(steps),
+            fixed=deeper((plan.fixed,))[0] if plan.fixed else None,
+            pins=deeper(plan.pins),
+            regional=regional * factor if isinstance(regional, float) else regional and deeper(regional),
+        ),
+    )
