@@ -79,7 +79,7 @@ def test_a_full_disk_keeps_what_was_done(tmp_path):
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (path.stat().st_size + 400, limits[1]))  # within the fourth record
     try:
-        with pytest.raises(sw.DataError, match=r"run.part cannot grow: .*; free some space and run again with the same"):
+        with pytest.raises(sw.DataError, match=r"run.part cannot grow: .*; free some space and run again"):
             run(partial=path)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
