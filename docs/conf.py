@@ -31,6 +31,8 @@ numpydoc_show_class_members = False
 autodoc_default_options = {"members": True, "member-order": "bysource"}
 autodoc_typehints = "none"  # the docstrings give types, shapes and units
 
+HANDOUTS = ("faulted_fold", "domino", "thrust")  # names of synthetic sections
+
 html_theme = "furo"
 html_title = "seiswidgets"
 html_copy_source = False
@@ -41,6 +43,7 @@ def setup(app):
     """Show the parameters of widgets, whose signatures traitlets hides, and make the pages accessible."""
     app.connect("autodoc-process-signature", widget_signature)
     app.connect("html-page-context", make_accessible, priority=900)  # after the theme
+    app.connect("builder-inited", write_handouts)
 
 
 def widget_signature(app, what, name, documented, options, signature, return_annotation):
@@ -50,6 +53,19 @@ def widget_signature(app, what, name, documented, options, signature, return_ann
     full = inspect.signature(documented.__init__)
     parameters = [parameter.replace(annotation=parameter.empty) for parameter in list(full.parameters.values())[1:]]
     return str(full.replace(parameters=parameters)), return_annotation
+
+
+def write_handouts(app):
+    """Write the pages that the gallery shows."""
+    folder = Path(app.outdir) / "handouts"
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in HANDOUTS:
+        case = getattr(seiswidgets.synthetic, name)()
+        picks = case.interpretation
+        restored = seiswidgets.Restoration(case.section).unfault(picks.faults, picks.horizons, fixed=case.fixed)
+        if name == "faulted_fold":
+            restored = restored.flatten(picks.horizon("H2"))
+        seiswidgets.save_html(restored, folder / f"{name}.html", picks)
 
 
 ACCESSIBLE = {

@@ -49,6 +49,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "io.session.session": ["Session", "open_session"],
         "io.session.sources": ["SectionSource"],
         "io.exports.xarrays": ["displacement", "from_xarray", "to_xarray"],
+        "widgets.handout.page": ["save_html"],
         "widgets.app": ["RestorationApp"],
         "widgets.gallery": ["Gallery"],
         "widgets.section_view.pane": ["SectionPane"],

@@ -16,7 +16,8 @@ HALF = 5  # iterations after which half of a step is shown as done: nobody knows
 OPTIONS = {"allow_outside": "--allow-outside", "allow_changed": "--allow-changed"}  # as errors name them
 
 DESCRIPTION = """Restores the section of each session as its plan says, and writes into a folder:
-<name>-restored.npz (the section), <name>-report.txt and <name>-report.json (a report of each step).
+<name>-restored.npz (the section), <name>-report.txt and <name>-report.json (a report of each step),
+and with --handout <name>-handout.html (a web page to look at without Python).
 Existing files of these names are replaced."""
 
 
@@ -48,6 +49,7 @@ def _parser() -> argparse.ArgumentParser:
     restore.add_argument(
         "--out", type=Path, required=True, metavar="DIR", help="folder for the results; created if necessary"
     )
+    restore.add_argument("--handout", action="store_true", help="write a web page with both sections, too")
     restore.add_argument(
         OPTIONS["allow_outside"],
         action="store_true",
@@ -73,6 +75,8 @@ def _restore(path: Path, name: str, options: argparse.Namespace) -> bool:
             allow_outside=options.allow_outside,
             allow_changed=options.allow_changed,
         )
+        if options.handout:
+            _write_handout(replay, options.out / f"{name}-handout.html")
     except SeiswidgetsError as error:
         message = error.text.rendered(OPTIONS)
         bar.end(message if message.startswith(str(path)) else f"{path}: {message}")
@@ -86,6 +90,12 @@ def _restore(path: Path, name: str, options: argparse.Namespace) -> bool:
     bar.end(f"{path}: {len(stages)} step{'' if len(stages) == 1 else 's'}{settled}, in {replay.files[1]}")
     sys.stderr.writelines(f"{path}: {line}\n" for line in _findings(replay))
     return True
+
+
+def _write_handout(replay: Replay, path: Path) -> None:
+    from seiswidgets.widgets.handout.page import save_html  # imports matplotlib, which takes a while
+
+    save_html(replay.restored, path, replay.session.interpretation, colours=replay.session.colours)
 
 
 def _findings(replay: Replay) -> list[str]:

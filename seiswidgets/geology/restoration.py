@@ -16,7 +16,7 @@ from seiswidgets.geology.bodies import Body, body_polygons, without_bodies
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage
-from seiswidgets.geology.picks import Fault, Horizon
+from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile, checked_slip
@@ -163,7 +163,8 @@ class Restoration:
 
         stage, notes = self.usable_picks.use(slide_blocks, faults, horizons, boundaries)
         held = replace(stage, fixed=fixed, pins=tuple(pins), regional=regional)
-        return self._with_stage(replace(held, weights=solver_options.weights, slip=profiles), notes)
+        drawn = _drawn(faults, boundaries, horizons)
+        return self._with_stage(replace(held, weights=solver_options.weights, slip=profiles, drawn=drawn), notes)
 
     def _with_stage(self, stage: Stage, notes: Sequence[Finding]) -> "Restoration":
         return replace(self, stages=(*self.stages, stage.with_notes(*notes)))
@@ -206,7 +207,15 @@ class Restoration:
         if datum is not None:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
         stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, guides)
-        return self._with_stage(replace(stage, weights=solver_options.weights), picks.notes([horizon]))
+        stage = replace(stage, weights=solver_options.weights, drawn=_drawn(horizon, beds))
+        return self._with_stage(stage, picks.notes([horizon]))
+
+    @property
+    def interpretation(self) -> Interpretation:
+        """The picks that the stages were given, as they were drawn on the original section, and the bodies."""
+        drawn = {(type(pick), pick.name): pick for stage in self.stages for pick in stage.drawn}
+        faults = [pick for pick in drawn.values() if isinstance(pick, Fault)]
+        return Interpretation(faults, [pick for pick in drawn.values() if isinstance(pick, Horizon)], self.bodies)
 
     @property
     def usable_picks(self) -> UsablePicks:
@@ -367,3 +376,8 @@ class Restoration:
     def __repr__(self) -> str:
         stages = ", ".join(stage.kind for stage in self.stages) or "no stage yet"
         return f"<Restoration of {self.original!r}: {stages}>"
+
+
+def _drawn(*picks: Fault | Horizon | Sequence[Fault | Horizon]) -> tuple[Fault | Horizon, ...]:
+    """Picks that were given alone or several at a time, in one tuple."""
+    return tuple(pick for some in picks for pick in ([some] if isinstance(some, Fault | Horizon) else some))

@@ -22,6 +22,7 @@ from seiswidgets.geology.bodies import Region
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.motion import observe_motion
+from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.report import BodyReport, Observations, Report
 from seiswidgets.geology.segments import horizon_segments, join_pieces
 from seiswidgets.geology.shared_stretches import follow, split_into_stretches
@@ -108,6 +109,8 @@ class Stage:
         Prescribed slip, by fault.
     fixed, pins, regional
         What was held, in the present-day section's units; see `Restoration.unfault`.
+    drawn : tuple of Fault or Horizon
+        The picks that the step was given, on the present-day section.
     """
 
     kind: str
@@ -124,6 +127,7 @@ class Stage:
     pins: tuple[tuple[float, float], ...] = ()
     regional: float | Sequence[tuple[float, float]] | None = None
     slip: Mapping[str, SlipProfile] = field(default_factory=dict)
+    drawn: tuple[Fault | Horizon, ...] = ()
 
     def __post_init__(self) -> None:
         self.vertices.setflags(write=False)

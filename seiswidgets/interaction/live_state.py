@@ -24,21 +24,23 @@ class TextureSource:
     Parameters
     ----------
     section : Section
+    most : int
+        Largest number of samples.
+    scale : float, optional
+        Amplitude of the integer 1; by default the finest that holds all amplitudes, but for spikes.
 
     Attributes
     ----------
-    scale : float
-        Amplitude of the integer 1.
     shape : tuple (nz, nx)
         Of the texture: that of the section, unless this is too large.
     rows : int
         Number of rows in a tile.
     """
 
-    def __init__(self, section: Section):
+    def __init__(self, section: Section, most: int = MOST_SAMPLES, scale: float | None = None):
         limit = HEADROOM * clip_limit(section, 99.0)
-        self.section, self.scale = section, min(_largest(section.amplitude), limit) / 32767
-        self.shape = _reduced(section.shape, MOST_SAMPLES)
+        self.section, self.scale = section, scale or min(_largest(section.amplitude), limit) / 32767
+        self.shape = _reduced(section.shape, most)
         self.rows = max(1, TILE_SAMPLES // self.shape[1])
         self._averaged = section.amplitude if self.shape == section.shape else self._resampled(self.shape)
 
@@ -47,6 +49,11 @@ class TextureSource:
         """A coarse texture: its number of samples and traces, and its integers."""
         shape = _reduced(self.section.shape, OVERVIEW_SAMPLES)
         return {"shape": list(shape), "data": self._integers(self._resampled(shape))}
+
+    @property
+    def whole(self) -> State:
+        """The whole texture, as the overview."""
+        return {"shape": list(self.shape), "data": self._integers(self._averaged)}
 
     @property
     def tiles(self) -> int:

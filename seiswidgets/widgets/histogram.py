@@ -4,7 +4,6 @@ from typing import Any
 
 import anywidget
 import numpy as np
-from matplotlib.colors import to_hex
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike
 from traitlets import Bool, Bunch, Dict, Float, List, Unicode, observe, validate
@@ -12,16 +11,12 @@ from traitlets import Bool, Bunch, Dict, Float, List, Unicode, observe, validate
 from seiswidgets.core.deformation import USUAL_SPAN, area_ratio_histogram, weighted_percentiles
 from seiswidgets.errors import SettingError
 from seiswidgets.interaction.colour import RatioColouring, checked_span
+from seiswidgets.interaction.ratio_axis import BINS, ratio_axis
 from seiswidgets.widgets.assets import asset
 from seiswidgets.widgets.closing import WithParts
 
 EMPTY = "Nothing restored yet: there is no deformation to show."
-ROUND_RATIOS = (  # the roundest first
-    *(1, 10, 0.1, 100, 0.01, 2, 0.5, 5, 0.2, 1.25, 0.8),
-    *(1.1, 0.9, 1.05, 0.95, 1.02, 0.98, 1.01, 0.99, 1.005, 0.995),
-)
 LEAST_SHARE = 1e-6  # of the area, above which a bar begins on a logarithmic axis
-TICK_DISTANCE = 0.09  # least distance between two ticks, as a share of the axis
 
 
 class DeformationHistogram(WithParts, anywidget.AnyWidget):
@@ -74,7 +69,7 @@ class DeformationHistogram(WithParts, anywidget.AnyWidget):
     span = Float(USUAL_SPAN)
 
     def __init__(
-        self, ratio: ArrayLike | None = None, areas: ArrayLike | None = None, *, bins: int = 41, **settings: Any
+        self, ratio: ArrayLike | None = None, areas: ArrayLike | None = None, *, bins: int = BINS, **settings: Any
     ):
         self.check_settings(settings)
         if bins < 1:
@@ -162,17 +157,14 @@ def _checked(ratio: ArrayLike, areas: ArrayLike | None) -> tuple[np.ndarray, np.
 
 
 def _bars(ratio: np.ndarray, areas: np.ndarray, bins: int, colouring: RatioColouring, is_log: bool) -> dict[str, Any]:
-    edges, shares = area_ratio_histogram(ratio, areas, bins, colouring.span)
-    colours = colouring.palette()[colouring.levels(np.sqrt(edges[:-1] * edges[1:])), :3] / 255
+    _, shares = area_ratio_histogram(ratio, areas, bins, colouring.span)
     floor = _decade_below(shares[shares > 0].min()) if is_log else 0.0
+    percents = _percents(100 * shares.max(), 100 * floor)
     return {
-        "edges": edges.tolist(),
+        **ratio_axis(colouring, bins),
         "shares": shares.tolist(),
-        "colours": [to_hex(colour) for colour in colours],
-        "x": [[tick, f"{tick:g}"] for tick in ratio_ticks(edges[-1])],
-        "y": [[percent / 100, f"{percent:g}"] for percent in _percents(100 * shares.max(), 100 * floor)],
+        "y": [[percent / 100, f"{percent:g}"] for percent in percents],
         "floor": floor,
-        "decimals": max(2, -int(np.floor(np.log10(edges[1] / edges[0] - 1)))),  # enough to distinguish two edges
     }
 
 
@@ -195,13 +187,3 @@ def _summary(ratio: np.ndarray, areas: np.ndarray, span: float) -> str:
     rest = f", {beyond:.2g}% of the area beyond" if beyond > 0 else ""
     rescaled = "" if span == USUAL_SPAN else ", rescaled"
     return f"median {median:.3f}, P1 {low:.3f}, P99 {high:.3f}; scale ±{100 * (span - 1):.3g}%{rescaled}{rest}"
-
-
-def ratio_ticks(span: float) -> list[float]:
-    """Choose round area ratios from 1 / span to span; the roundest come first, until the axis is full."""
-    ticks: list[float] = []
-    distance = 2 * TICK_DISTANCE * np.log(span)
-    for tick in ROUND_RATIOS:
-        if 1 / span <= tick <= span and all(abs(np.log(tick / other)) >= distance for other in ticks):
-            ticks.append(tick)
-    return sorted(ticks)

@@ -35,6 +35,15 @@ def test_points_go_there_and_back(answer):
     assert np.abs(back - points).max() < 1e-6 * restored.stages[0].spacing
 
 
+def test_it_knows_the_picks_that_its_stages_were_given(answer):
+    case, restored = answer
+    drawn, given = restored.interpretation, case.interpretation
+    for kind in ("faults", "horizons"):
+        assert {pick.name for pick in getattr(drawn, kind)} == {pick.name for pick in getattr(given, kind)}
+        assert set(getattr(drawn, kind)) <= set(getattr(given, kind))
+    assert sw.Restoration(case.section).interpretation.faults == ()
+
+
 def test_points_outside_map_nowhere(answer):
     _, restored = answer
     assert np.isnan(restored.to_restored([(-1e4, 0), (0, 1e5), (np.nan, 3)])).all()

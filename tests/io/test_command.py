@@ -67,6 +67,14 @@ def test_it_writes_the_section_and_the_reports(saved, tmp_path, capsys):
     assert "bed length" in text
 
 
+def test_it_writes_a_handout_in_the_colours_of_the_session(saved, tmp_path, capsys):
+    document = json.loads(saved.read_text())
+    document["picks"]["faults"][0]["colour"] = "#123456"
+    saved.write_text(json.dumps(document))
+    assert command.main(["restore", str(saved), "--out", str(tmp_path / "out"), "--handout"]) == 0
+    assert '"colour":"#123456"' in (tmp_path / "out" / "session-handout.html").read_text("utf-8")
+
+
 def test_results_in_the_same_folder_leave_the_session_and_its_section(tmp_path, capsys):
     case = sw.synthetic.tilt()
     sw.save_section(case.section, tmp_path / "line.npz")

@@ -608,7 +608,7 @@ def test_all_results_are_written_and_open_again(restored, tmp_path):
     results.export()
     assert results.wait(LONG)
     assert f"Wrote into {tmp_path / 'out'}: faulted fold-restored.npz, " in results.notice.text
-    assert [path.parent for path in results.written] == [tmp_path / "out"] * 8
+    assert [path.parent for path in results.written] == [tmp_path / "out"] * 9
     written = {path.name.split("-")[-1]: path for path in results.written}
     section = restored.restoration.section
     np.testing.assert_array_equal(sw.open_section(written["restored.npz"]).amplitude, section.amplitude)
@@ -619,6 +619,7 @@ def test_all_results_are_written_and_open_again(restored, tmp_path):
     assert len(json.loads(written["report.json"].read_text())["stages"]) == 2
     assert "<!DOCTYPE html>" in written["report.html"].read_text()
     assert "stroke: #123456" in written["figure.svg"].read_text()  # the colour that F1 has in the app
+    assert '"colour":"#123456"' in written["handout.html"].read_text("utf-8")
     with xarray.open_dataset(written["displacement.nc"]) as fields:
         assert "displacement_x" in fields
     assert plt.get_fignums() == []

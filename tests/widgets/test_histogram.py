@@ -5,7 +5,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.core.deformation import AREA_RATIO_COLOURS, area_ratio_histogram, colour_span, weighted_percentiles
 from seiswidgets.interaction.colour import RatioColouring
-from seiswidgets.widgets.histogram import TICK_DISTANCE, ratio_ticks
+from seiswidgets.interaction.ratio_axis import TICK_DISTANCE, ratio_ticks
 
 
 @pytest.fixture

@@ -108,10 +108,6 @@ def report_as_html(
     """A web page with a figure, and a table for each stage; names of picks and files are escaped."""
     section = restored.original
     title = escape(section.name or "section")
-    tables = [
-        f"<h2>Stage {count}</h2>\n{stage.report._repr_html_()}\n<p>{escape(_choices(stage, section))}</p>"
-        for count, stage in enumerate(restored.stages, 1)
-    ]
     figure = [_figure(restored, interpretation, colours, span)] if restored.stages else []
     return "\n".join(
         [
@@ -121,10 +117,25 @@ def report_as_html(
             f"<h1>Restoration of {title}</h1>\n<p>{escape(restored.verdict)}</p>",
             *figure,
             f"<p>{escape(repr(section))}</p>",
-            *tables,
-            f"<p>Restored with seiswidgets {__version__} and written on {datetime.now():%d %B %Y at %H:%M}: an "
-            "interpretation, not a measurement.</p>\n</html>\n",
+            *stage_tables(restored),
+            f"<p>{origin_line()}</p>\n</html>\n",
         ]
+    )
+
+
+def stage_tables(restored: Restoration) -> list[str]:
+    """HTML of the report of each stage: a heading, a table, and the choices that it was made with."""
+    return [
+        f"<h2>Stage {count}</h2>\n{stage.report._repr_html_()}\n<p>{escape(_choices(stage, restored.original))}</p>"
+        for count, stage in enumerate(restored.stages, 1)
+    ]
+
+
+def origin_line() -> str:
+    """One sentence on the version and the time at which a page was written."""
+    return (
+        f"Restored with seiswidgets {__version__} and written on {datetime.now():%d %B %Y at %H:%M}: an "
+        "interpretation, not a measurement."
     )
 
 

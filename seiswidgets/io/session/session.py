@@ -149,6 +149,12 @@ class Session:
         return self._usable_picks()[0]
 
     @property
+    def colours(self) -> dict[tuple[str, str], str]:
+        """Colours of the picks that have one of their own, by kind and name."""
+        kinds = ((FAULT, self.faults), (HORIZON, self.horizons), (BODY, self.bodies))
+        return {(kind, pick.name): pick.colour for kind, picks in kinds for pick in picks if pick.colour}
+
+    @property
     def problems(self) -> list[str]:
         """Reason why each unusable line is left out, or only carried along."""
         return [message for *_, message in self._usable_picks()[1]]

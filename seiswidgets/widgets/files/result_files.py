@@ -179,6 +179,12 @@ def _write_report(result: Result, path: Path) -> None:
     save_report(result.restoration, path, result.interpretation, colours=result.colours, span=result.span)
 
 
+def _write_handout(result: Result, path: Path) -> None:
+    from seiswidgets.widgets.handout.page import save_html  # imports pyplot
+
+    save_html(result.restoration, path, result.interpretation, colours=result.colours, span=result.span)
+
+
 def _write_displacement(result: Result, path: Path) -> None:
     fields = displacement(result.restoration)
     with atomic_write(path) as draft:
@@ -206,6 +212,7 @@ WRITERS: dict[str, tuple[str, Writer]] = {
     "mesh.vtu": ("mesh for ParaView (.vtu)", _of_restoration(save_mesh)),
     "report.json": ("report (.json)", _write_report),
     "report.html": ("report (.html)", _write_report),
+    "handout.html": ("handout, with live panes (.html)", _write_handout),
     "displacement.nc": ("displacement (.nc)", _write_displacement),
 }
 DEFAULTS = ("restored.npz", "figure.png", "report.html")

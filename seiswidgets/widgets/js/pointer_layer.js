@@ -55,8 +55,15 @@ function initialize({ model }) {
   keepTraitsLocal(model, ["carried", "linked"]);
 }
 
-/** @type {import("@anywidget/types").Render<Traits>} */
-function render({ model, el }) {
+/**
+ * Show a layer in an element.
+ *
+ * @param {Model} model
+ * @param {HTMLElement} el
+ * @param {import("./pointer_layer/throttle.js").Throttles} throttles
+ * @returns {{ view: LayerView, stop: () => void }}
+ */
+export function mount(model, el, throttles) {
   const view = new LayerView(model, el);
   const { plot } = view.elements;
   const controller = new AbortController();
@@ -69,7 +76,6 @@ function render({ model, el }) {
     movePointer: (position) => view.movePointer(position),
     scheduleRest: () => view.scheduleRest(),
   };
-  const throttles = createThrottles(model);
   const keyboard = new Keyboard(plot, model, actions.send);
   keyboard.listenWith(listen);
   new GestureRecogniser(plot, view.plotArea, keyboard, throttles, actions).listenWith(listen);
@@ -78,7 +84,7 @@ function render({ model, el }) {
   const observer = new ResizeObserver(() => view.reportSize());
   observer.observe(plot);
   window.addEventListener("resize", () => view.reportSize(), { signal }); // the browser's own zoom
-  return () => {
+  const stop = () => {
     controller.abort();
     observer.disconnect();
     clearTimeout(view.restTimer);
@@ -86,6 +92,12 @@ function render({ model, el }) {
     stopObserving();
     stopKeepingKeys();
   };
+  return { view, stop };
+}
+
+/** @type {import("@anywidget/types").Render<Traits>} */
+function render({ model, el }) {
+  return mount(model, el, createThrottles(model)).stop;
 }
 
 export default { initialize, render };

@@ -1121,6 +1121,7 @@ var LivePane = class {
     this.refining = void 0;
     this.model = null;
     this.canvas = document.createElement("canvas");
+    this.leastRatio = 1;
     this.pixels = new ImageData(1, 1);
     this.base = [];
     this.section = new Uint32Array(0);
@@ -1170,7 +1171,7 @@ var LivePane = class {
   drawPicture({ width, height, model }) {
     const { picture, canvas } = this;
     if (!picture) return;
-    const ratio = window.devicePixelRatio || 1;
+    const ratio = Math.max(window.devicePixelRatio || 1, this.leastRatio);
     const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     if (this.pixels.width !== size.width || this.pixels.height !== size.height)
@@ -1745,7 +1746,7 @@ function observe(model, view, throttles) {
 function initialize({ model }) {
   keepTraitsLocal(model, ["carried", "linked"]);
 }
-function render({ model, el }) {
+function mount(model, el, throttles) {
   const view = new LayerView(model, el);
   const { plot } = view.elements;
   const controller = new AbortController();
@@ -1756,7 +1757,6 @@ function render({ model, el }) {
     movePointer: (position) => view.movePointer(position),
     scheduleRest: () => view.scheduleRest()
   };
-  const throttles = createThrottles(model);
   const keyboard = new Keyboard(plot, model, actions.send);
   keyboard.listenWith(listen);
   new GestureRecogniser(plot, view.plotArea, keyboard, throttles, actions).listenWith(listen);
@@ -1765,7 +1765,7 @@ function render({ model, el }) {
   const observer = new ResizeObserver(() => view.reportSize());
   observer.observe(plot);
   window.addEventListener("resize", () => view.reportSize(), { signal });
-  return () => {
+  const stop = () => {
     controller.abort();
     observer.disconnect();
     clearTimeout(view.restTimer);
@@ -1773,8 +1773,13 @@ function render({ model, el }) {
     stopObserving();
     stopKeepingKeys();
   };
+  return { view, stop };
+}
+function render({ model, el }) {
+  return mount(model, el, createThrottles(model)).stop;
 }
 var pointer_layer_default = { initialize, render };
 export {
-  pointer_layer_default as default
+  pointer_layer_default as default,
+  mount
 };

@@ -42,6 +42,7 @@ export class LivePane {
     /** @type {import("../picture/types.js").PictureModel | null} */
     this.model = null;
     this.canvas = document.createElement("canvas");
+    this.leastRatio = 1; // of the picture's pixels to css pixels, for a printer
     this.pixels = new ImageData(1, 1);
     /** @type {unknown[]} */
     this.base = []; // what the section below was drawn from
@@ -95,7 +96,7 @@ export class LivePane {
   drawPicture({ width, height, model }) {
     const { picture, canvas } = this;
     if (!picture) return;
-    const ratio = window.devicePixelRatio || 1;
+    const ratio = Math.max(window.devicePixelRatio || 1, this.leastRatio);
     const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     if (this.pixels.width !== size.width || this.pixels.height !== size.height)

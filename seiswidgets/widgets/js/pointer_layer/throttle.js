@@ -114,4 +114,4 @@ export function createThrottles(model) {
   };
 }
 
-/** @typedef {ReturnType<typeof createThrottles>} Throttles */
+/** @typedef {Record<keyof ReturnType<typeof createThrottles>, Pick<MessageThrottle, "add" | "drop" | "answer">>} Throttles */
