@@ -133,7 +133,7 @@ def mesh_blocks(
     fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends, tuple(profiles)
     earlier = reusable_setup(start, Blocks, fingerprint)
     blocks = earlier or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends, tuple(profiles))
-    return replace(blocks, profiles=profiles)
+    return replace(blocks, profiles=profiles) if profiles else blocks
 
 
 def _mesh_blocks(

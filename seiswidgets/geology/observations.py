@@ -14,6 +14,7 @@ from seiswidgets.geology.extensions import extension_findings
 from seiswidgets.geology.fault_ends import fault_end_findings
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.growth import growth_findings
+from seiswidgets.geology.heave_closure import heave_findings
 from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport, SlipReport
 
@@ -34,7 +35,9 @@ def observe_slip(blocks: "Blocks", solution: Solution, domain: RestorationDomain
         finding for name, edges in blocks.beds.items() for finding in _stretched(name, edges, before, after, domain)
     ]
     slips, off = _slips(blocks, after, domain)
-    found = (*apart, *off, *wide, *stretched, *observe_picks(blocks, domain))
+    made = {name: _length(edges, after) - _length(edges, before) for name, edges in blocks.beds.items()}
+    open_heave = heave_findings(cutoffs, made, _places(blocks), domain)
+    found = (*apart, *off, *wide, *stretched, *open_heave, *observe_picks(blocks, domain))
     return Observations(cutoffs, seams, beds, found, slips)
 
 
@@ -77,8 +80,11 @@ def length_change(edges: Sequence[np.ndarray], before: np.ndarray, after: np.nda
         Pairs of vertices.
     before, after : array, shape (n, 2)
     """
-    old, new = (_lengths(np.concatenate(edges), vertices).sum() for vertices in (before, after))
-    return float(new / old - 1)
+    return _length(edges, after) / _length(edges, before) - 1
+
+
+def _length(edges: Sequence[np.ndarray], vertices: np.ndarray) -> float:
+    return float(_lengths(np.concatenate(edges), vertices).sum())
 
 
 def _lengths(edges: np.ndarray, vertices: np.ndarray) -> np.ndarray:
@@ -141,6 +147,12 @@ def _sides_apart(seam: SeamReport, point: np.ndarray, domain: RestorationDomain)
         "overlap; check the shape of the fault there, and the cut-offs on both its sides"
     )
     return Finding("warning", "contact", text, seam.fault, domain.position(point))
+
+
+def _places(blocks: "Blocks") -> dict[tuple[str, str], np.ndarray]:
+    """A point at the cut-offs of each fault and horizon."""
+    pairs = zip(blocks.cutoffs, blocks.stitches, strict=True)
+    return {(pair.fault, pair.horizon): blocks.mesh.vertices[stitch[0]] for pair, stitch in pairs}
 
 
 def _cutoffs(

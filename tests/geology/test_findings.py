@@ -97,8 +97,9 @@ def test_a_slip_that_would_die_out_too_soon_is_a_warning():
 def test_genuine_blind_faults_are_no_errors():
     case = sw.synthetic.blind_fault()
     restored = sw.Restoration(case.section).unfault(case.interpretation.faults, case.interpretation.horizons)
-    assert {(finding.severity, finding.kind) for finding in restored.findings} == {("note", "fault end")}
-    assert len(restored.findings) == 2
+    found = [(finding.severity, finding.kind) for finding in restored.findings]
+    assert set(found) == {("note", "fault end"), ("warning", "heave")}  # the beds beside them were indeed stretched
+    assert found.count(("note", "fault end")) == 2
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,43 @@
+"""The check of line lengths: heave either closes, or makes new bed."""
+
+import numpy as np
+import pytest
+
+import seiswidgets as sw
+from tests.sections import real_section
+
+
+def heave_findings(restored):
+    return [finding for finding in restored.findings if finding.kind == "heave"]
+
+
+def unfaulted(case, **choices):
+    picks = case.interpretation
+    return sw.Restoration(case.section, spacing=100).unfault(picks.faults, picks.horizons, fixed=case.fixed, **choices)
+
+
+@pytest.mark.parametrize("case", [sw.synthetic.planar_fault(), sw.synthetic.domino(), sw.synthetic.thrust()])
+def test_faults_that_cut_the_section_close_their_heave(case):
+    assert not heave_findings(unfaulted(case))
+
+
+def test_the_bed_made_beside_a_blind_fault_is_named_with_its_length():
+    case = sw.synthetic.blind_fault(slip=80)
+    restored = unfaulted(case)
+    (horizon,) = [one for one in case.interpretation.horizons if one.name == "H2"]
+    lengths = [
+        sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in lines)
+        for lines in (horizon.pieces, restored.carried(horizon))
+    ]
+    finding = next(finding for finding in heave_findings(restored) if finding.pick == "H2")
+    heave = sw.heave(case.interpretation.faults[0], horizon)
+    made = lengths[1] - lengths[0]
+    assert made > 0.5 * heave
+    assert f"only {heave - made:.2g} m of the {heave:.2g} m of heave of horizon H2 close" in finding.text
+    assert f"{made:.2g} m longer" in finding.text
+
+
+def test_on_f3_the_lower_horizon_does_not_close():
+    section, picks = real_section("f3")
+    restored = sw.Restoration(section).unfault(picks.faults, picks.horizons)
+    assert "lower" in {finding.pick for finding in heave_findings(restored)}
