@@ -87,6 +87,10 @@ class PickEditor:
         match gesture:
             case Key():
                 return self._handle_key(gesture)
+            case Move() if self.state.drag is None:
+                free = "shift" in gesture.modifiers
+                self._state = self.state.with_preview(gesture.point, self._tools, free=free)
+                return False
             case Move():
                 return self._become(move(self.state, gesture, self._tools))
             case Press():

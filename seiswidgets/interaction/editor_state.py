@@ -114,6 +114,9 @@ class EditorState:
         Further picks and pieces that are selected.
     action : str
         Name of the edit that led here; "" derives it.
+    preview : tuple of points (x, z)
+        Line along an event that a click at the pointer, or a vertex at the keyboard cursor, would add; empty if it is
+        straight.
     """
 
     document: Document
@@ -123,6 +126,7 @@ class EditorState:
     drag: Drag | None = None
     others: tuple[PickSelection, ...] = ()
     action: str = ""
+    preview: Points = ()
 
     @property
     def drawing(self) -> Drawing:
@@ -145,7 +149,7 @@ class EditorState:
         A new selection drops ``others`` unless they are given too.
         """
         others = () if "selection" in changes else self.others
-        state = replace(self, **{"others": others, "action": "", **changes})
+        state = replace(self, **{"others": others, "action": "", "preview": (), **changes})
         draft = state.drawing.draft
         mode = draft.kind if draft else state.mode
         state = replace(state, mode=mode, cursor=None if mode in (LOOK, MOVE) else state.cursor)
@@ -216,6 +220,14 @@ class EditorState:
         else:
             drawing = self.drawing.with_draft_continued(projection.path(draft.points[-1], point))
         return self.draw(drawing, drawing.draft_end if select else None)
+
+    def with_preview(self, point: Point, tools: Tools, *, free: bool = False) -> "EditorState":
+        """Show the line along an event that ``add`` would add."""
+        draft = self.drawing.draft
+        if draft is None or draft.kind != HORIZON or tools.follow is None or free or not np.isfinite(point).all():
+            return self.change(preview=()) if self.preview else self
+        path = tools.follow(draft.points[-1], tools.place_vertex(point, HORIZON))
+        return self.change(preview=tuple((x, z) for x, z in path.tolist()))
 
     def finish(self, tools: Tools | None = None) -> "EditorState":
         """Turn the draft line into a pick, or a piece of one, and select it; a single point stays a draft.

@@ -64,7 +64,8 @@ def _arrow(state: EditorState, event: Key, tools: Tools) -> EditorState | None:
     if state.mode == LOOK:
         return None
     stride = 1 if event.modifiers & CTRL else fast * np.maximum(1, np.ceil(STRIDE * viewport.pixel / cell))
-    return state.change(cursor=tools.inside(_cursor(state, tools) + direction * cell * stride))
+    cursor = tools.inside(_cursor(state, tools) + direction * cell * stride)
+    return state.change(cursor=cursor).with_preview(cursor, tools)
 
 
 def _move_chosen(state: EditorState, event: Key, tools: Tools) -> EditorState | None:

@@ -60,12 +60,15 @@ def marks(state: EditorState, projection: PaneProjection, cutoffs: tuple[CutOffH
 
 
 def rubber_band(state: EditorState, projection: PaneProjection) -> list[Point]:
-    """Start of the line to the pointer; empty without a draft line, or while the keyboard cursor leads it."""
+    """Start of the line to the pointer, or the line along an event that leads there.
+
+    Empty without a draft line, or while the keyboard cursor leads it.
+    """
     draft = state.drawing.draft
     if draft is None or state.cursor:
         return []
-    x, z = projection.to_pane([draft.points[-1]])[0].tolist()
-    return [(x, z)] if np.isfinite((x, z)).all() else []
+    points = projection.to_pane(state.preview or [draft.points[-1]])
+    return [(x, z) for x, z in points.tolist() if np.isfinite((x, z)).all()]
 
 
 @dataclass(frozen=True)
@@ -114,7 +117,8 @@ def _lines(state: EditorState) -> Iterator[_Line]:
     if draft:
         yield _line(state, PickSelection(draft.kind, None, 0), draft.points, DRAFT_COLOUR)
     if draft and cursor and cursor != draft.points[-1]:
-        yield _Line(PickSelection(draft.kind, None), (draft.points[-1], cursor), DRAFT_COLOUR, dash=DASH)
+        line = state.preview or (draft.points[-1], cursor)
+        yield _Line(PickSelection(draft.kind, None), line, DRAFT_COLOUR, dash=DASH)
 
 
 def _line(state: EditorState, target: PickSelection, points: Points, colour: str) -> _Line:

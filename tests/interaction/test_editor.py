@@ -15,7 +15,7 @@ from seiswidgets.interaction.editor_state import MODES
 from seiswidgets.interaction.gesture_table import GESTURES
 from seiswidgets.interaction.gestures import DoubleClick, Key, Move, Press, Release
 from seiswidgets.interaction.projection import PaneProjection
-from seiswidgets.interaction.scene import marks
+from seiswidgets.interaction.scene import marks, rubber_band, strokes
 from seiswidgets.interaction.snapping import follow_event, snap_to_event
 from seiswidgets.interaction.viewport import Viewport
 
@@ -862,12 +862,22 @@ def test_horizons_snap_and_faults_do_not():
     (bed,) = case.interpretation.horizons[1].pieces
     editor.enter("horizon")
     for point in (bed[3] + (0, 12), bed[30] - (0, 9)):
-        editor.handle(Press(tuple(point), tuple(view.to_pixels(point)), PaneProjection(view)))
+        at = tuple(point), tuple(view.to_pixels(point)), PaneProjection(view)
+        editor.handle(Move(*at))
+        previewed = rubber_band(editor.state, PaneProjection(view))
+        editor.handle(Press(*at))
     line = np.array(editor.drawing.draft.points)
+    assert previewed == list(editor.drawing.draft.points)
+    assert len(rubber_band(editor.state, PaneProjection(view))) == 1  # until the pointer moves
     assert len(line) > 3
     assert abs(np.interp(line[:, 0], *bed.T) - line[:, 1]).max() < case.section.dz
     editor.undo()
     assert len(editor.drawing.draft.points) == 1
+    editor.deselect()
+    keys(editor, *["ArrowRight"] * 8)
+    dashed = [stroke for stroke in strokes(editor.state, PaneProjection(view)) if stroke.dash]
+    assert len(dashed[0].points) > 2
+    keys(editor, "Escape")
     editor.enter("fault")
     point = tuple(bed[3] + (0, 12))
     editor.handle(Press(point, tuple(view.to_pixels(point)), PaneProjection(view)))

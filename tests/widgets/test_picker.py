@@ -95,6 +95,18 @@ def test_dragging_says_so_and_tells_each_place(drawn):
     assert told == [(True, pytest.approx([460.0, 310.0])), (True, pytest.approx([470.0, 320.0]))]
 
 
+def test_the_picks_of_a_kind_can_be_folded(drawn):
+    group = drawn.list.groups["horizon"]
+    assert group.description == "Horizons (1)"
+    group.value = False
+    assert not drawn.list.rows("horizon")
+    assert drawn.list.rows("fault")
+    draw(drawn.pane, (50.0, 500.0), (300.0, 510.0))
+    assert not drawn.list.rows("horizon")
+    group.value = True
+    assert list(drawn.list.rows("horizon")) == list(drawn.drawing.names("horizon"))
+
+
 def test_the_list_names_colours_hides_and_deletes(drawn):
     _, colour, visible, name, use, delete, _ = rows(drawn, "fault")[0]
     name.value = NASTY

@@ -33,6 +33,11 @@ class PicksList(VBox):
         Editor of the picks.
     changed : callable()
         Called after each edit.
+
+    Attributes
+    ----------
+    groups : dict of str to ToggleButton
+        Headings of the picks of each kind, which fold and unfold them.
     """
 
     children: tuple[Widget, ...]
@@ -40,12 +45,18 @@ class PicksList(VBox):
     def __init__(self, editor: PickEditor, changed: Callable[[], None]):
         self.editor, self._changed = editor, changed
         self._rows: dict[str, list[PickRow]] = {kind: [] for kind in TITLES}
-        self._titles = {kind: HTML() for kind in TITLES}
+        self._complaints: dict[str, tuple[str, str]] = {}
+        self.groups = {kind: _group_button() for kind in TITLES}
+        self._hints = {kind: HTML() for kind in TITLES}
+        self._titles = {kind: HBox([self.groups[kind], self._hints[kind]]) for kind in TITLES}
         super().__init__()
+        for button in self.groups.values():
+            button.observe(lambda change: self.update(self._complaints), "value")
         self.update({})
 
     def update(self, complaints: dict[str, tuple[str, str]]) -> None:
         """Show the editor's picks, each with its complaint: a severity and a text, by the name of the pick."""
+        self._complaints = complaints
         children: list[Widget] = []
         for kind, rows in self._rows.items():
             picks = [pick for pick in self.editor.drawing.picks if pick.kind == kind]
@@ -53,10 +64,17 @@ class PicksList(VBox):
             for row, pick in zip(rows, picks, strict=False):
                 row.update(pick, self.is_selected(pick), complaints.get(pick.name))
             none = NONE_YET.format(kind.title(), "around" if kind == BODY else "along")
-            self._titles[kind].value = f"<b>{TITLES[kind]}</b>" + ("" if picks else none)
-            children += [self._titles[kind], *rows[: len(picks)]]
+            self._hints[kind].value = "" if picks else none
+            self._show_group(kind, len(picks))
+            children += [self._titles[kind], *(rows[: len(picks)] if self.groups[kind].value else [])]
         if tuple(children) != self.children:
             self.children = tuple(children)
+
+    def _show_group(self, kind: str, count: int) -> None:
+        button = self.groups[kind]
+        button.description = f"{TITLES[kind]} ({count})" if count else TITLES[kind]
+        button.icon = "caret-down" if button.value else "caret-right"
+        button.tooltip = f"{'fold' if button.value else 'unfold'} the list of {TITLES[kind].lower()}"
 
     def rows(self, kind: str) -> dict[str, "PickRow"]:
         """Rows of the picks of a kind, by name."""
@@ -152,6 +170,11 @@ class PickRow(VBox):
         if change.new != _shown_use(self._pick):
             editor = self._owner.editor
             self._edit(editor.body_kind if self._pick.kind == BODY else editor.use, change.new)
+
+
+def _group_button() -> ToggleButton:
+    """Heading of the picks of a kind, which folds and unfolds them."""
+    return ToggleButton(value=True, layout=Layout(width="auto"), style={"font_weight": "bold"})
 
 
 def _shown_use(pick: Pick) -> str:
