@@ -8,9 +8,9 @@ from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import HORIZON
 from seiswidgets.interaction.drawing import Drawing, PickSelection
 from seiswidgets.interaction.editor_state import MOVE, EditorState, Tools
+from seiswidgets.interaction.piece_ends import ENDS
 from seiswidgets.interaction.piece_moves import name_pieces, remove_chosen
 from seiswidgets.interaction.pieces import (
-    ENDS,
     copy_horizon,
     extend_piece,
     join_pieces,

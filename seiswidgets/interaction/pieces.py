@@ -1,41 +1,49 @@
 """Edits of whole pieces of a drawing: move, slide, copy, join, split, reverse, extend and delete."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike
-from shapely import LineString
 
 from seiswidgets.errors import PickError
 from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import AUTO, FAULT, HORIZON
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.segments import nearest_fault_ahead
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Point, Points
+from seiswidgets.interaction.piece_ends import ENDS, extend_end, fit_ends
 from seiswidgets.interaction.sliding import slide_piece, slip_to, within_section
 
-ENDS = (0, -1)  # indices of a line's first and last point
 FEWEST = "select two pieces of horizons, or two faults, to join them: Shift+click in the mode Move"
 
 
 def transform_pieces(
     drawing: Drawing,
     section: Section,
-    targets: Iterable[PickSelection],
+    targets: Collection[PickSelection],
     transform: Callable[[PickSelection, Points], ArrayLike],
 ) -> Drawing:
     """Replace the points of pieces by what a function makes of each, as far as it lies in the section.
 
-    A piece stays as it is if nothing is left of it. The points of a body are moved to the border instead.
+    A horizon that ends at a fault goes on ending there, if it is near. A piece stays as it is if nothing is left of it.
+    The points of a body are moved to the border instead.
     """
     x_min, x_max, z_min, z_max = section.extent
+    moving = set(targets)
+    walls = [
+        pick.pieces[0]
+        for pick in drawing.picks
+        if pick.kind == FAULT and PickSelection(FAULT, pick.name, 0) not in moving
+    ]
     for target in targets:
-        points = np.asarray(transform(target, drawing.line(target)), float)
+        before = drawing.line(target)
+        points = np.asarray(transform(target, before), float)
         if target.kind == BODY:
             points = np.clip(points, (x_min, z_min), (x_max, z_max))
         else:
             points = within_section(points, section)
+        if target.kind == HORIZON:
+            points = fit_ends(points, before, walls, section)
         if len(points) > 1:
             drawing = drawing.with_line(target, points)
     return drawing
@@ -58,8 +66,9 @@ def delete_pieces(drawing: Drawing, targets: Sequence[PickSelection]) -> Drawing
 def copy_horizon(drawing: Drawing, section: Section, name: str, dz: float) -> tuple[Drawing, str]:
     """Add a copy of a horizon, moved by ``dz`` in the section's unit of z; return its new name too."""
     new, pick = drawing.free_name(HORIZON), drawing.pick(HORIZON, name)
-    moved = [within_section(np.add(piece, (0.0, dz)), section) for piece in pick.pieces]
-    pieces = [piece for piece in moved if len(piece) > 1]
+    walls = [fault.pieces[0] for fault in drawing.picks if fault.kind == FAULT]
+    moved = [(within_section(np.add(piece, (0.0, dz)), section), piece) for piece in pick.pieces]
+    pieces = [fit_ends(copy, piece, walls, section) for copy, piece in moved if len(copy) > 1]
     if not pieces:
         raise PickError(f"there is no room in the section for a copy of {name}; zoom in for a smaller step", pick=name)
     return drawing.with_pick(HORIZON, new, pieces, use=pick.use), new
@@ -124,18 +133,11 @@ def extend_piece(
     faults = {pick.name: pick.pieces[0] for pick in drawing.picks if pick.kind == FAULT and pick.name != target.name}
     x_min, x_max, z_min, z_max = section.extent
     border = [(x_min, z_min), (x_max, z_min), (x_max, z_max), (x_min, z_max), (x_min, z_min)]
-    names, walls = [*faults, "the border"], [LineString(section.to_rock(one)) for one in (*faults.values(), border)]
-    cell = section.metres * (section.dx, section.dz)
-    points, met = list(drawing.line(target)), []
+    names, walls = [*faults, "the border"], [*faults.values(), border]
+    points, met = np.array(drawing.line(target)), []
     for which in ends:
-        line = LineString(section.to_rock(points))
-        end = nearest_fault_ahead(
-            line, which, walls, cell, float(np.hypot(*section.to_rock(border[2]) - section.to_rock(border[0])))
-        )
-        if end is not None and end.gap > 0:
-            x, z = section.from_rock(end.point).tolist()
-            points.insert(0 if which == 0 else len(points), (x, z))
-            met.append(names[end.fault])
+        points, wall = extend_end(points, which, walls, section, np.inf)
+        met += [] if wall is None else [names[wall]]
     return drawing.with_line(target, np.clip(points, border[0], border[2])), met
 
 
