@@ -98,12 +98,12 @@ def test_dragging_says_so_and_tells_each_place(drawn):
 def test_the_picks_of_a_kind_can_be_folded(drawn):
     group = drawn.list.groups["horizon"]
     assert group.description == "Horizons (1)"
-    group.value = False
+    group.click()
     assert not drawn.list.rows("horizon")
     assert drawn.list.rows("fault")
     draw(drawn.pane, (50.0, 500.0), (300.0, 510.0))
     assert not drawn.list.rows("horizon")
-    group.value = True
+    group.click()
     assert list(drawn.list.rows("horizon")) == list(drawn.drawing.names("horizon"))
 
 

@@ -21,6 +21,7 @@ USE_TOOLTIPS = {
     BODY: "a hole in the mesh: salt, or an area without data",
 }
 NONE_YET = " <i>none yet: choose {} and click {} one</i>"
+HEADING = {"font_weight": "bold", "button_color": "transparent"}
 NARROW = {"width": "34px", "min_width": "34px", "padding": "0"}  # not a Layout, which all apps would share
 
 
@@ -36,7 +37,7 @@ class PicksList(VBox):
 
     Attributes
     ----------
-    groups : dict of str to ToggleButton
+    groups : dict of str to Button
         Headings of the picks of each kind, which fold and unfold them.
     """
 
@@ -46,12 +47,13 @@ class PicksList(VBox):
         self.editor, self._changed = editor, changed
         self._rows: dict[str, list[PickRow]] = {kind: [] for kind in TITLES}
         self._complaints: dict[str, tuple[str, str]] = {}
-        self.groups = {kind: _group_button() for kind in TITLES}
+        self._folded: set[str] = set()
+        self.groups = {kind: Button(layout=Layout(width="auto"), style=HEADING) for kind in TITLES}
         self._hints = {kind: HTML() for kind in TITLES}
         self._titles = {kind: HBox([self.groups[kind], self._hints[kind]]) for kind in TITLES}
         super().__init__()
-        for button in self.groups.values():
-            button.observe(lambda change: self.update(self._complaints), "value")
+        for kind, button in self.groups.items():
+            button.on_click(lambda _, kind=kind: self._fold(kind))
         self.update({})
 
     def update(self, complaints: dict[str, tuple[str, str]]) -> None:
@@ -66,15 +68,20 @@ class PicksList(VBox):
             none = NONE_YET.format(kind.title(), "around" if kind == BODY else "along")
             self._hints[kind].value = "" if picks else none
             self._show_group(kind, len(picks))
-            children += [self._titles[kind], *(rows[: len(picks)] if self.groups[kind].value else [])]
+            children += [self._titles[kind], *(rows[: len(picks)] if kind not in self._folded else [])]
         if tuple(children) != self.children:
             self.children = tuple(children)
 
+    def _fold(self, kind: str) -> None:
+        """Fold or unfold the picks of a kind."""
+        self._folded ^= {kind}
+        self.update(self._complaints)
+
     def _show_group(self, kind: str, count: int) -> None:
-        button = self.groups[kind]
+        button, is_folded = self.groups[kind], kind in self._folded
         button.description = f"{TITLES[kind]} ({count})" if count else TITLES[kind]
-        button.icon = "caret-down" if button.value else "caret-right"
-        button.tooltip = f"{'fold' if button.value else 'unfold'} the list of {TITLES[kind].lower()}"
+        button.icon = "caret-right" if is_folded else "caret-down"
+        button.tooltip = f"{'unfold' if is_folded else 'fold'} the list of {TITLES[kind].lower()}"
 
     def rows(self, kind: str) -> dict[str, "PickRow"]:
         """Rows of the picks of a kind, by name."""
@@ -170,11 +177,6 @@ class PickRow(VBox):
         if change.new != _shown_use(self._pick):
             editor = self._owner.editor
             self._edit(editor.body_kind if self._pick.kind == BODY else editor.use, change.new)
-
-
-def _group_button() -> ToggleButton:
-    """Heading of the picks of a kind, which folds and unfolds them."""
-    return ToggleButton(value=True, layout=Layout(width="auto"), style={"font_weight": "bold"})
 
 
 def _shown_use(pick: Pick) -> str:
