@@ -6,9 +6,11 @@ run one at a time, until the one that kills its process is known and given up.
 
 import hashlib
 import pickle
+import zlib
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from multiprocessing import active_children
 from typing import Any, TypeVar
 
 from loky import ProcessPoolExecutor, cpu_count
@@ -48,7 +50,7 @@ def run_tasks(
     task : callable(content, index)
         A function of a module.
     content : object
-        Sent to each worker; small if possible.
+        Sent to each worker once, or with each task of an executor that is given; small if possible.
     indices : iterable of int
     executor : concurrent.futures.Executor, optional
         By default processes of this computer, one for each core, that end with the iterator.
@@ -62,28 +64,32 @@ def run_tasks(
     """
     if executor is not None and not isinstance(executor, Executor):
         raise SettingError(f"executor must be a concurrent.futures.Executor, but is a {type(executor).__name__}")
-    packed = pickle.dumps(content)
-    crew = _Crew(executor, workers)
+    data = zlib.compress(pickle.dumps(content), 1)
+    crew = _Crew(executor, workers, (hashlib.sha256(data).hexdigest(), data))
     try:
-        yield from _Run(crew, task, (hashlib.sha256(packed).hexdigest(), packed), indices).results()
+        yield from _Run(crew, task, indices).results()
     finally:
         crew.end()
 
 
-def _work(task: Task[Result], packed: tuple[str, bytes], index: int) -> Result:
-    """Run a task on a worker."""
+def _unpack(key: str, data: bytes) -> Any:
+    """Unpack the content of a run, once on each worker."""
     global _content
-    key, data = packed
     if _content[0] != key:
-        _content = key, pickle.loads(data)
-    return task(_content[1], index)
+        _content = key, pickle.loads(zlib.decompress(data))
+    return _content[1]
+
+
+def _work(task: Task[Result], index: int, key: str, data: bytes = b"") -> Result:
+    """Run a task on a worker, which has the content unless it comes along."""
+    return task(_unpack(key, data), index)
 
 
 class _Crew:
     """The executor that was given, or one of our own that is started again when it breaks."""
 
-    def __init__(self, given: Executor | None, workers: int | None):
-        self._given = given
+    def __init__(self, given: Executor | None, workers: int | None, content: tuple[str, bytes]):
+        self._given, self._content = given, content
         self._workers = cpu_count() if workers is None else validation.whole_number("workers", workers, least=1)
         self._own: ProcessPoolExecutor | None = None
 
@@ -99,11 +105,16 @@ class _Crew:
         known = getattr(self._given, "_max_workers", None)
         return QUEUED * known if isinstance(known, int) else UNKNOWN
 
-    def submit(self, *task: Any) -> Future:
-        if self._given is None and self._own is None:
-            self._own = ProcessPoolExecutor(self._workers, env=ONE_THREAD)
+    def submit(self, task: Task[Any], index: int) -> Future:
         try:
-            return (self._given or self._own).submit(*task)  # type: ignore[union-attr]  # one of them is there
+            if self._given is not None:
+                key, data = self._content
+                return self._given.submit(_work, task, index, key, data)
+            if self._own is None:
+                self._own = ProcessPoolExecutor(
+                    self._workers, initializer=_unpack, initargs=self._content, env=ONE_THREAD
+                )
+            return self._own.submit(_work, task, index, self._content[0])
         except BrokenExecutor:
             raise
         except RuntimeError as error:
@@ -117,13 +128,14 @@ class _Crew:
     def end(self) -> None:
         if self._own is not None:
             self._own.shutdown(wait=True, kill_workers=True)
+            active_children()  # lets go of those that have died, which would each keep a pipe open
 
 
 class _Run:
     """The tasks that wait, those that are handed over, and those that were in progress when a worker died."""
 
-    def __init__(self, crew: _Crew, task: Task, packed: tuple[str, bytes], indices: Iterable[int]):
-        self._crew, self._call = crew, (_work, task, packed)
+    def __init__(self, crew: _Crew, task: Task, indices: Iterable[int]):
+        self._crew, self._task = crew, task
         self._waiting = deque(indices)
         self._pending: dict[Future, int] = {}
         self._suspects: set[int] = set()
@@ -147,7 +159,7 @@ class _Run:
         while self._waiting and len(self._pending) < (1 if self._suspects else self._crew.capacity):
             index = self._waiting.popleft()
             try:
-                self._pending[self._crew.submit(*self._call, index)] = index
+                self._pending[self._crew.submit(self._task, index)] = index
             except BrokenExecutor as error:
                 self._waiting.appendleft(index)
                 if not self._crew.is_own:
@@ -163,8 +175,7 @@ class _Run:
             if isinstance(error, BrokenExecutor) and self._crew.is_own:
                 yield from self._after_a_death()
                 return
-            self._attempts[index] = self._attempts.get(index, 0) + 1
-            if self._attempts[index] < ATTEMPTS:
+            if not self._fails_again(index):
                 self._waiting.appendleft(index)
                 del self._pending[future]
                 return
@@ -173,13 +184,17 @@ class _Run:
         self._suspects.discard(index)
         yield index, result
 
+    def _fails_again(self, index: int) -> bool:
+        """Count the failures of a task; True if they are too many."""
+        self._attempts[index] = self._attempts.get(index, 0) + 1
+        return self._attempts[index] >= ATTEMPTS
+
     def _after_a_death(self) -> Iterator[tuple[int, Lost]]:
-        """Start again; a task that was alone when its process died is given up."""
+        """Start again; a task that was alone each time when its process died is given up."""
         lost = list(self._pending.values())
-        if self._suspects and len(lost) == 1:
+        if self._suspects and len(lost) == 1 and self._fails_again(lost[0]):
             self._suspects.discard(lost[0])
-            yield lost[0], Lost("its process died twice, perhaps for want of memory")
-            lost = []
+            yield lost.pop(), Lost(f"its process died {ATTEMPTS} times, perhaps for want of memory")
         self._suspects.update(lost)
         self._waiting.extendleft(reversed(lost))
         self._restart()

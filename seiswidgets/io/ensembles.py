@@ -80,7 +80,7 @@ def ensemble(
     >>> uncertainty = sw.Uncertainty(horizon=1)
     >>> result = sw.ensemble(case.section, case.interpretation, sw.Plan(steps=()), uncertainty, members=50)
     >>> low, high = result.percentiles((5, 95))["throw", "H1 at F1"]
-    >>> low < 100 < high
+    >>> print(low < 100 < high)
     True
     """
     for value, kind, name in (
