@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array, eye_array, kron
 
+from seiswidgets.core.interpolated import PointsInMesh
 from seiswidgets.core.term import CONSTANT, Term
 from seiswidgets.core.terms import coordinates, sparse_rows
 
@@ -16,10 +17,7 @@ class Hold(Term):
 
     Parameters
     ----------
-    corners : array, shape (k, 3)
-        The corners of the triangle of each point.
-    shares : array, shape (k, 3)
-        The point's barycentric coordinates.
+    within : PointsInMesh
     points : array, shape (k, 2)
         Where the points are held.
     held : array of bool, shape (k, 2)
@@ -29,8 +27,7 @@ class Hold(Term):
     weight : float
     """
 
-    corners: np.ndarray
-    shares: np.ndarray
+    within: PointsInMesh
     points: np.ndarray
     held: np.ndarray
     count: int
@@ -40,15 +37,11 @@ class Hold(Term):
 
     @cached_property
     def _rows(self) -> csr_array:
-        means = sparse_rows(self.corners, self.weight * self.shares, self.count)
+        means = sparse_rows(self.within.corners, self.weight * self.within.shares, self.count)
         return csr_array(kron(means, eye_array(2), format="csr")[np.flatnonzero(self.held.ravel())])
 
-    def positions(self, vertices: np.ndarray) -> np.ndarray:
-        """The points after a deformation, shape (k, 2)."""
-        return np.einsum("kc,kcx->kx", self.shares, vertices[self.corners])
-
     def residual(self, vertices: np.ndarray) -> np.ndarray:
-        return np.asarray(self.weight * (self.positions(vertices) - self.points)[self.held])
+        return np.asarray(self.weight * (self.within.positions(vertices) - self.points)[self.held])
 
     def jacobian(self, vertices: np.ndarray) -> csr_array:
         return self._rows

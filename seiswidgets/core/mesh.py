@@ -103,6 +103,13 @@ class Mesh:
         """Label of the connected part that each vertex belongs to, counted from 0; shape (n,)."""
         return _components(len(self.vertices), self.edges)
 
+    def moved(self, vertices: np.ndarray) -> "Mesh":
+        """The same triangles with their vertices elsewhere."""
+        mesh = Mesh(vertices, self.triangles)
+        topology = ("half_edges", "_edges_of_half_edges", "boundary_half_edges", "contour", "interior", "blocks")
+        vars(mesh).update({name: getattr(self, name) for name in ("triangles", *topology)})
+        return mesh
+
     def cut(self, edges: np.ndarray) -> "Cut":
         """Cut the mesh open along some of its edges.
 

@@ -126,6 +126,7 @@ class NormalEquations:
         jacobians = {index: term.jacobian(vertices) for index, term in steady.items()}
         self._gram = {index: Gram(jacobian, self._unknown, self.size) for index, jacobian in jacobians.items()}
         self._constant = {index: jacobians[index] for index, term in steady.items() if term.pattern == CONSTANT}
+        self._kinds = [(type(term), term.pattern) for term in terms]
         self.factorisations = self.analyses = 0
         self._ordering: object = None
         keys = [gram.keys for gram in self._gram.values()]
@@ -133,7 +134,23 @@ class NormalEquations:
         distinct, entry = _distinct(np.concatenate([*keys, diagonal]), self.size)
         self._entries = dict(zip(self._gram, np.split(entry, np.cumsum([len(key) for key in keys])), strict=False))
         self._set_pattern(distinct)
-        self._unchanging = np.zeros(len(distinct))
+        self._add_up_constant_terms()
+
+    def renewed(self, terms: Sequence[Term], free: np.ndarray, vertices: np.ndarray) -> "NormalEquations":
+        """The equations with other constant terms, whose Jacobians must have the same patterns.
+
+        If the terms are of other kinds, or other coordinates are free, the equations are made anew.
+        """
+        is_same = np.array_equal(np.flatnonzero(free), self._coordinates)
+        if not is_same or [(type(term), term.pattern) for term in terms] != self._kinds:
+            return NormalEquations(terms, free, vertices)
+        self._constant = {index: terms[index].jacobian(vertices) for index in self._constant}
+        self._add_up_constant_terms()
+        self.factorisations = 0
+        return self
+
+    def _add_up_constant_terms(self) -> None:
+        self._unchanging = np.zeros(len(self._keys))
         for index, jacobian in self._constant.items():
             self._unchanging += self._steady_values(index, jacobian.data)
 

@@ -38,6 +38,8 @@ class Solution:
         True if the last step moved no vertex by more than the tolerance, and had nothing more to gain.
     energies : tuple of float
         The energy at the start and after each iteration.
+    equations : NormalEquations, optional
+        Kept for the next solution on the same triangles.
     """
 
     vertices: np.ndarray
@@ -46,6 +48,7 @@ class Solution:
     factorisations: int
     converged: bool
     energies: tuple[float, ...]
+    equations: NormalEquations | None = None
 
 
 def energy(terms: Sequence[Term], vertices: np.ndarray) -> float:
@@ -93,6 +96,7 @@ def gauss_newton(
     tolerance: float,
     max_iterations: int = 200,
     progress: Progress | None = None,
+    equations: NormalEquations | None = None,
 ) -> Solution:
     """Minimise the energy by Gauss-Newton and Newton steps that never turn a triangle over.
 
@@ -116,6 +120,8 @@ def gauss_newton(
         energy noticeably.
     progress : callable(iteration, energy, vertices), optional
         Called after each iteration; returning False cancels.
+    equations : NormalEquations, optional
+        Those of an earlier solution on the same triangles, whose pattern and its analysis are used again.
 
     Raises
     ------
@@ -123,7 +129,8 @@ def gauss_newton(
     """
     vertices = np.array(start, float)
     terms = update_contacts(terms, vertices)
-    equations = NormalEquations(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
+    renew = equations.renewed if equations else NormalEquations
+    equations = renew(terms, np.broadcast_to(free.reshape(len(free), -1), vertices.shape), vertices)
     left = residuals(terms, vertices)
     energies, converged, iteration = [sum_of_squares(left)], False, 0
     stepper = Stepper(equations, triangles)
@@ -144,7 +151,7 @@ def gauss_newton(
         ]
         energies.append(sum_of_squares(left))
         _report_progress(progress, iteration, energies[-1], vertices)
-    return Solution(vertices, terms, iteration, equations.factorisations, converged, tuple(energies))
+    return Solution(vertices, terms, iteration, equations.factorisations, converged, tuple(energies), equations)
 
 
 @dataclass(frozen=True, eq=False)

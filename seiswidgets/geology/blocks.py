@@ -9,8 +9,11 @@ import shapely
 from shapely import LineString
 
 from seiswidgets.core.curves import move_onto
+from seiswidgets.core.interpolated import AtPoints, PointsInMesh
 from seiswidgets.core.junctions import Continuation, continuations
 from seiswidgets.core.mesh import Cut, Mesh, edge_keys
+from seiswidgets.core.term import Term
+from seiswidgets.core.terms import Stitch
 from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import Keyword, PickError
 from seiswidgets.geology.cutoffs import CutOffPair, PickNetwork
@@ -19,7 +22,7 @@ from seiswidgets.geology.fault_curves import meshed_parts
 from seiswidgets.geology.fault_lines import NO_ENDS, fault_lines, settle_tips
 from seiswidgets.geology.picks import FAULT, HORIZON, TIP, Ends
 from seiswidgets.geology.prescribed_slip import FaultSides
-from seiswidgets.geology.segments import horizon_segments, segments_beside
+from seiswidgets.geology.segments import hanging_side, horizon_segments, segments_beside
 from seiswidgets.geology.shared_stretches import continue_along, follow
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.solve import reusable_setup
@@ -44,7 +47,7 @@ class Blocks:
     network : PickNetwork
     cutoffs : list of CutOffPair
     stitches : array, shape (c, 2)
-        The vertices of each pair of cut-offs, in the hanging wall and in the footwall.
+        The vertices of each pair of cut-offs, in the hanging wall and in the footwall; with ``points``, their indices.
     beds : dict of str to list of array, shape (k, 2)
         The edges of each segment of each horizon.
     boundaries : tuple of LineString
@@ -57,6 +60,8 @@ class Blocks:
         The points of each fault before it was extended.
     profiles : dict of str to SlipProfile
         Prescribed slip, by fault.
+    points : PointsInMesh, optional
+        Cut-offs between vertices: those of horizons that have moved since the mesh was made, for a preview.
     """
 
     cut: Cut
@@ -72,6 +77,7 @@ class Blocks:
     ends: Mapping[str, Ends]
     drawn: Mapping[str, np.ndarray]
     profiles: Mapping[str, SlipProfile] = field(default_factory=dict)
+    points: PointsInMesh | None = None
 
     @property
     def mesh(self) -> Mesh:
@@ -87,9 +93,25 @@ class Blocks:
         """
         return float(np.sqrt(np.mean([sides.shape[1] for sides in self.sides.values()])))
 
+    def cutoff_positions(self, vertices: np.ndarray) -> np.ndarray:
+        """Both cut-offs of each pair after a deformation, hanging wall first; shape (c, 2, 2)."""
+        positions = vertices if self.points is None else self.points.positions(vertices)
+        return np.asarray(positions[self.stitches])
+
+    @property
+    def stitched_vertices(self) -> np.ndarray:
+        """The vertices at the ends of each stitch, or next to them, hanging wall first; shape (c, 2)."""
+        return self.stitched if self.points is None else self.points.corners[self.stitched, 0]
+
+    def stitch(self, weight: float) -> Term:
+        """The term that brings pairs of cut-offs together."""
+        if self.points is None:
+            return Stitch(self.stitched, len(self.mesh.vertices), weight * self.reach)
+        return AtPoints(Stitch(self.stitched, self.stitches.size, weight * self.reach), self.points)
+
     def slips(self) -> dict[str, np.ndarray]:
         """For each fault the points between its pairs of cut-offs, and the distance of each pair, in metres."""
-        ends = self.mesh.vertices[self.stitches]
+        ends = self.cutoff_positions(self.mesh.vertices)
         rows = np.column_stack([ends.mean(axis=1), np.hypot(*(ends[:, 0] - ends[:, 1]).T)])
         slips = {name: rows[[pair.fault == name for pair in self.cutoffs]] for name in self.network.faults}
         return slips | {name: sides.rows for name, sides in self.prescribed.items()}
@@ -130,10 +152,55 @@ def mesh_blocks(
     others = [LineString(points) for points in boundaries.values()]
     drawn = {name: [LineString(points)] for name, points in faults.items()}
     profiles = {name: profile for name, profile in profiles.items() if name in faults}
-    fingerprint = domain.fingerprint(drawn, horizons, {"": others}), ends, tuple(profiles)
-    earlier = reusable_setup(start, Blocks, fingerprint)
-    blocks = earlier or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends, tuple(profiles))
+    cuts = domain.fingerprint(drawn, {"": others}), ends, tuple(profiles)
+    fingerprint = cuts, {name: [piece.wkb for piece in pieces] for name, pieces in horizons.items()}
+    blocks = reusable_setup(start, Blocks, fingerprint)
+    earlier = start.mesh_setup if domain.quick and start and isinstance(start.mesh_setup, Blocks) else None
+    if not blocks and earlier and earlier.fingerprint[0] == cuts:
+        blocks = _keep_mesh(earlier, horizons, fingerprint, domain, tuple(profiles))
+    blocks = blocks or _mesh_blocks(domain, faults, horizons, others, fingerprint, ends, tuple(profiles))
     return replace(blocks, profiles=profiles) if profiles else blocks
+
+
+def _keep_mesh(
+    earlier: Blocks,
+    horizons: Mapping[str, Sequence[LineString]],
+    fingerprint: tuple,
+    domain: RestorationDomain,
+    prescribed: Collection[str],
+) -> Blocks | None:
+    """The same mesh for horizons that have moved: their cut-offs are points on the edges of their faults.
+
+    None if there are no cut-offs.
+    """
+    known, now = earlier.fingerprint[1], fingerprint[1]
+    faults, segments = earlier.network.faults, earlier.network.horizons
+    moved = {name: pieces for name, pieces in horizons.items() if known.get(name) != now[name]}
+    moved_segments = _match(faults, moved, earlier.boundaries, domain).horizons
+    network = replace(earlier.network, horizons={name: moved_segments.get(name) or segments[name] for name in horizons})
+    cutoffs, rest = network.cutoffs(prescribed), earlier.mesh.vertices
+    if not cutoffs:
+        return None
+    ends = [(pair, side, end) for pair in cutoffs for side, end in ((1, pair.hanging_wall), (-1, pair.footwall))]
+    on_sides = [
+        PointsInMesh.on_edges(
+            rest, _edges_of_wall(earlier, pair.fault, side), np.array([network.point(pair.horizon, end)])
+        )
+        for pair, side, end in ends
+    ]
+    points = PointsInMesh(*(np.concatenate([getattr(one, name) for one in on_sides]) for name in ("corners", "shares")))
+    stitches = np.arange(2 * len(cutoffs)).reshape(-1, 2)
+    return replace(
+        earlier, network=network, cutoffs=cutoffs, stitches=stitches, points=points, beds={}, fingerprint=fingerprint
+    )
+
+
+def _edges_of_wall(blocks: Blocks, fault: str, side: int) -> np.ndarray:
+    """The edges along a fault in its hanging wall (1) or footwall (-1), shape (s, 2)."""
+    right, left = blocks.sides[fault]
+    start, stop = blocks.mesh.vertices[right[len(right) // 2]]
+    middle, beside = (start + stop) / 2, (stop - start)[::-1] * [-1, 1]
+    return right if hanging_side(blocks.network.faults[fault], middle, middle + beside) == side else left
 
 
 def _mesh_blocks(

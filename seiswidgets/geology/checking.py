@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Sequence
 
 from seiswidgets.errors import PickError, SeiswidgetsError
+from seiswidgets.geology.bed_mesh import mesh_bed
 from seiswidgets.geology.blocks import Blocks, mesh_blocks
 from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.findings import Finding, worst_first
-from seiswidgets.geology.flattening import mesh_bed
 from seiswidgets.geology.observations import observe_picks
 from seiswidgets.geology.picks import Horizon, Interpretation
 from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob, Step

@@ -177,12 +177,12 @@ class PickNetwork:
 
     def _arc_lengths(self, pairs: Sequence[CutOffPair], wall: str) -> np.ndarray:
         """Positions of cut-offs along their fault, shape (n,)."""
-        points = [self._point(pair.horizon, getattr(pair, wall)) for pair in pairs]
+        points = [self.point(pair.horizon, getattr(pair, wall)) for pair in pairs]
         lines = [self.faults[pair.fault] for pair in pairs]
         return np.array([line.project(Point(point)) for line, point in zip(lines, points, strict=True)])
 
     def _contradiction(self, pair: CutOffPair, other: CutOffPair) -> PickError:
-        point = self._point(pair.horizon, pair.hanging_wall)
+        point = self.point(pair.horizon, pair.hanging_wall)
         return PickError(
             f"horizon {pair.horizon!r} contradicts horizon {other.horizon!r} at fault {pair.fault!r}, near "
             f"{self.where(point)}: it lies above the other one on one side of the fault and below it on the other; "
@@ -219,14 +219,15 @@ class PickNetwork:
                 return PickError(f"{message}: {error.text}", kind="undetermined", pick=fault, where=error.where)
         return PickError(f"{message}; {self._nearest(fault)}", kind="undetermined", pick=fault)
 
-    def _point(self, horizon: str, segment_end: SegmentEnd) -> Position:
+    def point(self, horizon: str, segment_end: SegmentEnd) -> Position:
+        """The point at which a segment of a horizon ends."""
         index, which = segment_end
         return self.horizons[horizon][index].end_point(which)
 
     def _two_on_one_side(self, fault: str, horizon: str, side: int, ends: list[SegmentEnd]) -> PickError:
         first, second = (self.horizons[horizon][index].piece for index, _ in ends[:2])
         what = f"pieces {first} and {second}" if first != second else f"both ends of piece {first}"
-        point = self._point(horizon, ends[1])
+        point = self.point(horizon, ends[1])
         return PickError(
             f"{what} of horizon {horizon!r} reach fault {fault!r} in its {WALLS[side]}, the second near "
             f"{self.where(point)}, and fewer in its {WALLS[-side]}; keep one, or join them",
@@ -236,7 +237,7 @@ class PickNetwork:
 
     def _one_sided(self, fault: str, horizon: str, sides: Mapping[int, Sequence[SegmentEnd]]) -> PickError:
         present = 1 if sides[1] else -1
-        point = self._point(horizon, sides[present][0])
+        point = self.point(horizon, sides[present][0])
         message = (
             f"horizon {horizon!r} reaches fault {fault!r} in its {WALLS[present]} near {self.where(point)}, but not in "
             f"its {WALLS[-present]}"

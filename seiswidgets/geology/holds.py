@@ -6,8 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from seiswidgets.core.holds import Hold
+from seiswidgets.core.interpolated import PointsInMesh
 from seiswidgets.core.mesh import Mesh
-from seiswidgets.core.point_location import barycentric_coefficients, triangle_at
+from seiswidgets.core.point_location import triangle_at
 from seiswidgets.core.rigid import nearest_rigid, rigid_motion
 from seiswidgets.errors import PickError
 from seiswidgets.geology.domain import RestorationDomain
@@ -63,13 +64,10 @@ class PinnedMesh:
         if not len(points):
             return None
         corners = self.mesh.triangles[[self._triangle(point) for point in points]]
-        x0, z0, bx, bz, cx, cz = barycentric_coefficients(self.mesh.vertices[corners]).T
-        x, z = points[:, 0] - x0, points[:, 1] - z0
-        second, third = bx * x + bz * z, cx * x + cz * z
-        shares = np.column_stack([1 - second - third, second, third])
+        within = PointsInMesh.in_triangles(self.mesh.vertices, corners, points)
         held = np.ones(points.shape, bool)
         held[len(self.holds.pins) :, 0] = False
-        return Hold(corners, shares, points, held, len(self.mesh.vertices), STRONG)
+        return Hold(within, points, held, len(self.mesh.vertices), STRONG)
 
     def _triangle(self, point: np.ndarray) -> int:
         triangle = triangle_at(self.mesh.vertices, self.mesh.triangles, point)
@@ -119,7 +117,7 @@ class PinnedMesh:
         """Move a start for the solver rigidly to where its held points lie nearest to their places."""
         if self.term is None:
             return vertices
-        now = self.term.positions(vertices)
+        now = self.term.within.positions(vertices)
         goal = np.where(self.term.held, self.term.points, now)
         if len(now) == 1:
             return np.asarray(vertices + (goal - now)[0])

@@ -19,8 +19,8 @@ from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.report import BedReport, CutOffReport, Observations, SeamReport, SlipReport
 
 if TYPE_CHECKING:  # both modules import this one
+    from seiswidgets.geology.bed_mesh import Bed
     from seiswidgets.geology.blocks import Blocks
-    from seiswidgets.geology.flattening import Bed
 
 KEPT = 0.005  # of a horizon's length: a larger change is worth a finding
 
@@ -62,7 +62,8 @@ def observe_picks(blocks: "Blocks", domain: RestorationDomain) -> list[Finding]:
 
 def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, domain: RestorationDomain) -> Observations:
     """Measure how level a flattened horizon is, and how its length has changed."""
-    before, off = bed.mesh.vertices, vertices[level.vertices, 1] - level.datum
+    before, vertices = bed.positions(bed.mesh.vertices), bed.positions(vertices)
+    off = vertices[level.vertices, 1] - level.datum
     flatness = float(np.sqrt(np.mean(off**2)) / domain.section.metres[1])
     report = BedReport(name, length_change([bed.edges], before, vertices), flatness)
     farthest = before[level.vertices[np.argmax(np.abs(off))]]
@@ -151,8 +152,8 @@ def _sides_apart(seam: SeamReport, point: np.ndarray, domain: RestorationDomain)
 
 def _places(blocks: "Blocks") -> dict[tuple[str, str], np.ndarray]:
     """A point at the cut-offs of each fault and horizon."""
-    pairs = zip(blocks.cutoffs, blocks.stitches, strict=True)
-    return {(pair.fault, pair.horizon): blocks.mesh.vertices[stitch[0]] for pair, stitch in pairs}
+    pairs = zip(blocks.cutoffs, blocks.cutoff_positions(blocks.mesh.vertices), strict=True)
+    return {(pair.fault, pair.horizon): points[0] for pair, points in pairs}
 
 
 def _cutoffs(
@@ -160,13 +161,13 @@ def _cutoffs(
 ) -> tuple[tuple[CutOffReport, ...], list[Finding]]:
     """Throw, heave and misfit of each pair of cut-offs, and findings where the misfit is more than the slack."""
     reports, apart = [], []
-    for pair, (hanging_wall, footwall) in zip(blocks.cutoffs, blocks.stitches, strict=True):
-        before = domain.section.from_rock(blocks.mesh.vertices[[hanging_wall, footwall]])
-        slip = separation(blocks.network.faults[pair.fault].coords, *before)
-        misfit = float(np.hypot(*(vertices[hanging_wall] - vertices[footwall])))
+    at_rest, restored = (blocks.cutoff_positions(points) for points in (blocks.mesh.vertices, vertices))
+    for pair, before, (hanging_wall, footwall) in zip(blocks.cutoffs, at_rest, restored, strict=True):
+        slip = separation(blocks.network.faults[pair.fault].coords, *domain.section.from_rock(before))
+        misfit = float(np.hypot(*(hanging_wall - footwall)))
         reports.append(CutOffReport(pair.fault, pair.horizon, *slip, misfit))
         if misfit > domain.slack:
-            apart.append(_cutoffs_apart(pair, misfit, blocks.mesh.vertices[hanging_wall], domain))
+            apart.append(_cutoffs_apart(pair, misfit, before[0], domain))
     return tuple(reports), apart
 
 

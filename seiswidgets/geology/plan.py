@@ -2,7 +2,8 @@
 
 A preview (``RestorationJob.coarse``) approximates the restoration: its mesh is three times as coarse, its lines are
 simplified to match, and each step takes two iterations from the preview before. Where lines are smooth it lies within a
-few metres of the full restoration, about one sample.
+few metres of the full restoration, about one sample. While only horizons move from one to the next, meshes are kept:
+cut-offs lie between vertices of the faults, and the vertices at the corners of a flattened horizon move with them.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence

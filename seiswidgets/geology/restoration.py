@@ -206,7 +206,8 @@ class Restoration:
         guides = [line for bed in beds if bed.name != horizon.name and bed.constrains for line in picks.bed_lines(bed)]
         if datum is not None:
             datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
-        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, guides)
+        before = self.stages[-1] if self.stages else None
+        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, guides, before)
         stage = replace(stage, weights=solver_options.weights, drawn=_drawn(horizon, beds))
         return self._with_stage(stage, picks.notes([horizon]))
 

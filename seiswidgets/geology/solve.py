@@ -1,12 +1,13 @@
 """Solving a stage: the solver's options, where it starts, and the refusal of flipped triangles."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, field
-from typing import TypedDict, TypeVar
+from dataclasses import asdict, dataclass, field, replace
+from typing import TypedDict, TypeGuard, TypeVar
 
 import numpy as np
 
 from seiswidgets.core.mesh import Mesh, triangle_areas
+from seiswidgets.core.point_location import TriangleFinder
 from seiswidgets.core.solver import Progress, Solution, fixed_point, gauss_newton
 from seiswidgets.core.term import Term
 from seiswidgets.errors import FlippedError, Keyword, SettingError
@@ -141,7 +142,9 @@ def minimise(
     limits = options.iteration_limit, options.progress
     if options.solver == GAUSS_NEWTON:
         free = _anchor(mesh) if adrift else free
-        return gauss_newton(terms, mesh.triangles, start, free, SETTLED * domain.slack, *limits)
+        equations = options.start.outcome.solution.equations if shares_mesh(options.start, mesh) else None
+        solution = gauss_newton(terms, mesh.triangles, start, free, SETTLED * domain.slack, *limits, equations)
+        return solution if domain.quick else replace(solution, equations=None)  # which are large
     solution = fixed_point(terms, start, free, TOLERANCE * domain.spacing, *limits)
     flipped = np.flatnonzero(triangle_areas(solution.vertices, mesh.triangles) <= 0)
     if len(flipped):
@@ -181,24 +184,31 @@ def reusable_setup(earlier: Stage | None, setup: type[SetupT], fingerprint: tupl
     return earlier.mesh_setup if earlier.mesh_setup.fingerprint == fingerprint else None
 
 
+def shares_mesh(earlier: Stage | None, mesh: Mesh) -> TypeGuard[Stage]:
+    """Return whether an earlier stage has the same triangles, perhaps with their vertices elsewhere."""
+    return earlier is not None and earlier.mesh_setup.mesh.triangles is mesh.triangles
+
+
 def warm_start(mesh: Mesh, free: np.ndarray, earlier: Stage | None) -> np.ndarray | None:
     """An earlier stage's deformation on this mesh, shape (n, 2); None if there is none, or it turns triangles over."""
     if earlier is None:
         return None
     if earlier.mesh_setup.mesh is mesh:
         moved = earlier.vertices[: len(mesh.vertices)].copy()  # welding adds vertices behind the mesh's own
+    elif shares_mesh(earlier, mesh):
+        moved = mesh.vertices + earlier.vertices[: len(mesh.vertices)] - earlier.mesh_setup.mesh.vertices
     else:
-        moved = earlier.map.forward(mesh.vertices, _triangles_before(mesh, earlier))
+        moved = earlier.map.forward(mesh.vertices, triangles_inside(mesh, earlier.map.source_finder))
     moved[~free] = mesh.vertices[~free]
     unusable = ~np.isfinite(moved).all() or triangle_areas(moved, mesh.triangles).min() <= 0
     return None if unusable else moved
 
 
-def _triangles_before(mesh: Mesh, earlier: Stage) -> np.ndarray:
-    """The triangle of an earlier stage's mesh that carries each vertex, -1 where there is none; shape (n,).
+def triangles_inside(mesh: Mesh, finder: TriangleFinder) -> np.ndarray:
+    """The triangle of another mesh that carries each vertex, -1 where there is none; shape (n,).
 
     The search starts a little inside one of the vertex's own triangles: a vertex on a cut lies on that side of it.
-    Where the rock now reaches beyond the earlier mesh, the search goes farther inside.
+    Where the rock reaches beyond the other mesh, the search goes farther inside.
     """
     corner = np.empty(len(mesh.vertices), int)
     corner[mesh.triangles.ravel()] = np.arange(mesh.triangles.size)
@@ -208,5 +218,5 @@ def _triangles_before(mesh: Mesh, earlier: Stage) -> np.ndarray:
         missing = np.flatnonzero(triangles < 0)
         if not len(missing):
             break
-        triangles[missing] = earlier.map.source_finder(mesh.vertices[missing] + share * inwards[missing])
+        triangles[missing] = finder(mesh.vertices[missing] + share * inwards[missing])
     return triangles

@@ -11,6 +11,7 @@ from shapely import LineString
 from seiswidgets.core.contact import Contact, contacts
 from seiswidgets.core.facing import Facing
 from seiswidgets.core.holds import EdgeDirection
+from seiswidgets.core.interpolated import AtPoints
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.point_location import triangle_at
 from seiswidgets.core.rigid import rigid_blocks
@@ -69,7 +70,8 @@ def unfault_stage(
     terms = [*_terms(blocks, options.row_weights, domain.spacing), *([pinned.term] if pinned.term else [])]
     start = warm_start(mesh, free, options.start)
     if start is None:  # the paper starts its own solver from the unmoved mesh
-        start = _slide_blocks(mesh, blocks.stitched, free, terms) if options.solver == GAUSS_NEWTON else mesh.vertices
+        is_newton = options.solver == GAUSS_NEWTON
+        start = _slide_blocks(mesh, blocks.stitched_vertices, free, terms) if is_newton else mesh.vertices
         start = pinned.begin(start) if unheld else start
     adrift = unheld and pinned.is_adrift
     loose = pinned.loose if unheld and not adrift else free
@@ -127,7 +129,7 @@ def _terms(blocks: Blocks, weights: Weights, spacing: float) -> list[Term]:
         MeanValue(mesh, weights.mean_value),
         ContourLaplacian(mesh, weights.contour),
         EdgeLength(mesh.vertices, mesh.edges, weights.edge),
-        Stitch(blocks.stitched, len(mesh.vertices), weights.stitch * blocks.reach),
+        blocks.stitch(weights.stitch),
         *(term for sides in blocks.prescribed.values() for term in sides.facing(weights.stitch)),
         *(
             term
@@ -160,7 +162,7 @@ def _slide_blocks(mesh: Mesh, stitches: np.ndarray, free: np.ndarray, terms: Seq
                     pair = (label[near] == block) & (label[far] == other)
                     shift[other] = shift[block] + np.mean(mesh.vertices[near[pair]] - mesh.vertices[far[pair]], axis=0)
                     queue.append(other)
-    between = [term for term in terms if isinstance(term, Contact | Facing | Stitch)]
+    between = [term for term in terms if isinstance(term, Contact | Facing | Stitch | AtPoints)]
     return rigid_blocks(label, between, mesh.vertices + np.nan_to_num(shift)[label], label != root)
 
 

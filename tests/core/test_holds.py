@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from seiswidgets.core.holds import EdgeDirection, Hold
+from seiswidgets.core.interpolated import PointsInMesh
 from tests.core.derivatives import check_curvature, check_jacobian
 from tests.core.meshes import PLANAR, cut_along, rotated
 
@@ -15,7 +16,7 @@ POINTS = np.einsum("kc,kcx->kx", SHARES, MESH.vertices[CORNERS])
 
 
 def hold(held=True):
-    return Hold(CORNERS, SHARES, POINTS, np.broadcast_to(held, (3, 2)), len(MESH.vertices), 1.5)
+    return Hold(PointsInMesh(CORNERS, SHARES), POINTS, np.broadcast_to(held, (3, 2)), len(MESH.vertices), 1.5)
 
 
 def terms():
