@@ -1,4 +1,4 @@
-"""Command line ``python -m seiswidgets``: restores sessions without a notebook."""
+"""Command line ``python -m seiswidgets``: restores sessions, and studies how certain they are, without a notebook."""
 
 import argparse
 import shutil
@@ -14,6 +14,13 @@ from seiswidgets.io.session.replay import Replay, output_names, replay_session
 BAR_WIDTH = 24
 HALF = 5  # iterations after which half of a step is shown as done: nobody knows how many it will take
 OPTIONS = {"allow_outside": "--allow-outside", "allow_changed": "--allow-changed"}  # as errors name them
+DEVIATIONS = {  # defaults and meanings of the options of the command ensemble
+    "horizon": (1.0, "standard deviation of the picks of horizons, in samples (1)"),
+    "fault": (1.0, "standard deviation of the picks of faults, in traces (1)"),
+    "correlation-length": (500.0, "distance along a line over which errors are alike, in metres (500)"),
+    "dip": (0.0, "standard deviation of the faults' dips, in degrees (0)"),
+    "velocity": (0.0, "standard deviation of the velocity, as a share of it (0)"),
+}
 
 DESCRIPTION = """Restores the section of each session as its plan says, and writes into a folder:
 <name>-restored.npz (the section), <name>-report.txt and <name>-report.json (a report of each step),
@@ -24,6 +31,10 @@ Existing files of these names are replaced."""
 def main(arguments: list[str] | None = None) -> int:
     """Run the command; return 0 if all went well, 1 if a session could not be restored, 2 if it was called wrongly."""
     options = _parser().parse_args(arguments)
+    return int(options.run(options))
+
+
+def _restore_all(options: argparse.Namespace) -> int:
     try:
         options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -45,22 +56,78 @@ def _parser() -> argparse.ArgumentParser:
         epilog="Exit status: 0 if all sessions were restored, 1 if any was not.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    restore.set_defaults(run=_restore_all)
     restore.add_argument("sessions", nargs="+", type=Path, metavar="session.json", help="a saved session")
     restore.add_argument(
         "--out", type=Path, required=True, metavar="DIR", help="folder for the results; created if necessary"
     )
     restore.add_argument("--handout", action="store_true", help="write a web page with both sections, too")
-    restore.add_argument(
+    _add_permissions(restore)
+    _add_ensemble(commands)
+    return parser
+
+
+def _add_permissions(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
         OPTIONS["allow_outside"],
         action="store_true",
         help="allow a session to open a section that lies outside the session's folder",
     )
-    restore.add_argument(
+    command.add_argument(
         OPTIONS["allow_changed"],
         action="store_true",
         help="restore even if the section is not the one that the session was made on",
     )
-    return parser
+
+
+def _add_ensemble(commands: argparse._SubParsersAction) -> None:
+    ensemble = commands.add_parser(
+        "ensemble",
+        help="restore a session many times, with the errors of its picks drawn at random",
+        description="Restores a session many times, with the errors of its picks drawn at random, writes the results "
+        "as NetCDF, and prints their percentiles. Interrupted, it continues when it is run again.",
+    )
+    ensemble.set_defaults(run=_study)
+    ensemble.add_argument("session", type=Path, metavar="session.json", help="a saved session")
+    ensemble.add_argument("--out", type=Path, required=True, metavar="FILE.nc", help="file for the results")
+    for name, (default, meaning) in DEVIATIONS.items():
+        ensemble.add_argument(f"--{name}", type=float, default=default, metavar="NUMBER", help=meaning)
+    ensemble.add_argument("--members", type=int, default=200, metavar="N", help="number of restorations (200)")
+    ensemble.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (0)")
+    _add_workers(ensemble)
+    _add_permissions(ensemble)
+
+
+def _add_workers(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--workers", type=int, metavar="N", help="processes of this computer; one a core if left out")
+    command.add_argument("--scheduler", metavar="ADDRESS", help="address of a Dask cluster that does the work instead")
+
+
+def _study(options: argparse.Namespace) -> int:
+    """Compute the ensemble of a session; return the exit status."""
+    from seiswidgets.geology.ensembles.uncertainty import Uncertainty  # which the other commands do not need
+    from seiswidgets.io.session.studies import study_session
+
+    bar = ProgressBar(str(options.session))
+    try:
+        result = study_session(
+            options.session,
+            options.out,
+            Uncertainty(**{name.replace("-", "_"): vars(options)[name.replace("-", "_")] for name in DEVIATIONS}),
+            options.members,
+            options.seed,
+            workers=options.workers,
+            scheduler=options.scheduler,
+            progress=lambda done, members: bar.fill(done / members, f"{done} of {members} members"),
+            allow_outside=options.allow_outside,
+            allow_changed=options.allow_changed,
+        )
+    except SeiswidgetsError as error:
+        bar.end(f"{options.session}: {error.text.rendered(OPTIONS)}")
+        return 1
+    bar.end(f"{options.session}: {result.summary}, in {options.out}")
+    sys.stdout.write(f"{result}\n")
+    return 0
 
 
 def _restore(path: Path, name: str, options: argparse.Namespace) -> bool:
@@ -115,10 +182,14 @@ class ProgressBar:
 
     def show(self, step: int, steps: int, iteration: int) -> None:
         """Show that an iteration of a step is done; both are counted from 1."""
+        share = (step - 1 + iteration / (iteration + HALF)) / steps
+        self.fill(share, f"step {step} of {steps}, iteration {iteration}")
+
+    def fill(self, share: float, text: str) -> None:
+        """Fill a share of the bar."""
         if not sys.stderr.isatty():
             return
-        filled = round(BAR_WIDTH * (step - 1 + iteration / (iteration + HALF)) / steps)
-        bar = f" [{'#' * filled:<{BAR_WIDTH}}] step {step} of {steps}, iteration {iteration}"
+        bar = f" [{'#' * round(BAR_WIDTH * share):<{BAR_WIDTH}}] {text}"
         room = max(0, shutil.get_terminal_size().columns - len(bar) - 1)  # a wrapped line could not be overwritten
         self._write(self.label[max(0, len(self.label) - room) :] + bar)
 

@@ -142,8 +142,8 @@ def _sync(path: Path) -> None:
         os.close(handle)
 
 
-def import_optional(package: str, purpose: str) -> ModuleType:
-    """Import a package of the extra ``files``; ``purpose`` says what it is needed for, e.g. "to read line.sgy".
+def import_optional(package: str, purpose: str, extra: str = "files") -> ModuleType:
+    """Import a package of an extra; ``purpose`` says what it is needed for, e.g. "to read line.sgy".
 
     Raises
     ------
@@ -155,5 +155,5 @@ def import_optional(package: str, purpose: str) -> ModuleType:
     except ModuleNotFoundError as error:
         raise DataError(
             f"{purpose} requires the package {package}, which is not installed: pip install {package}, "
-            'or "seiswidgets[files]" for everything that files may need'
+            f'or "seiswidgets[{extra}]" for everything that {"clusters" if extra == "cluster" else extra} may need'
         ) from error

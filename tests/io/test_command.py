@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 
 import seiswidgets as sw
 from seiswidgets import __main__ as command
@@ -233,3 +234,51 @@ def test_version_help_and_wrong_calls(capsys):
         assert word in told
     assert stopped()[0] == 2
     assert "--out" in stopped("restore", "x.json")[2]
+
+
+@pytest.fixture
+def quick(saved):
+    """A session of which nothing is restored, so that an ensemble has throws and heaves only."""
+    case = sw.synthetic.faulted_fold()
+    plan = sw.Plan(steps=())
+    sw.Session.of(case.section, sw.SectionSource("synthetic", "faulted_fold"), case.interpretation, plan=plan).save(
+        saved
+    )
+    return saved
+
+
+def test_an_ensemble_of_a_session(quick, tmp_path, capsys):
+    out = tmp_path / "ensemble.nc"
+    assert command.main(["ensemble", str(quick), "--out", str(out), "--members", "5", "--fault", "0"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == f"{quick}: 5 members, seed 0, in {out}\n"
+    assert "throw H1 at F1  m  " in printed.out
+    data = xarray.load_dataset(out)
+    assert (data.sizes["member"], data.attrs["uncertainty_horizon"], data.attrs["uncertainty_fault"]) == (5, 1, 0)
+    assert sorted(os.listdir(tmp_path)) == ["ensemble.nc", "in"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--horizon", "-1"], "horizon is a standard deviation, 0 or more, but is -1"),
+        (["--members", "0"], "members must be a whole number of 1 or more, but is 0"),
+        (["--workers", "0"], "workers must be a whole number of 1 or more, but is 0"),
+        (["--out", "ensemble.txt"], "ensemble.txt must end in .nc"),
+        (["--out", "/none/ensemble.nc"], "/none/ensemble.nc.part cannot be written: No such file"),
+    ],
+)
+def test_what_an_ensemble_is_not_made_of(quick, tmp_path, capsys, arguments, message):
+    assert command.main(["ensemble", str(quick), "--out", str(tmp_path / "ensemble.nc"), *arguments]) == 1
+    assert message in capsys.readouterr().err
+
+
+def test_a_scheduler_that_does_not_answer(quick, tmp_path):
+    code = (
+        "import sys; from seiswidgets.io.session import studies; studies.PATIENCE = 0.1; "
+        "from seiswidgets.__main__ import main; sys.exit(main(sys.argv[1:]))"
+    )
+    out = tmp_path / "ensemble.nc"
+    result = run("ensemble", quick, "--out", out, "--scheduler", "tcp://127.0.0.1:1", code=code)
+    assert result.returncode == 1
+    assert "no scheduler of Dask answers at tcp://127.0.0.1:1" in result.stderr

@@ -1,13 +1,14 @@
 """Ensembles as datasets of xarray, which can write NetCDF."""
 
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from seiswidgets.geology.ensembles.ensemble import PERCENTS, Ensemble
 from seiswidgets.geology.measures import HEAVE, MEANING, ROTATION, SLIP, THROW, unit_of
-from seiswidgets.io.files import import_optional
+from seiswidgets.io.files import atomic_write, import_optional
 
 if TYPE_CHECKING:
     import xarray
@@ -58,6 +59,13 @@ def ensemble_dataset(ensemble: Ensemble) -> "xarray.Dataset":
     }
     xarray = import_optional("xarray", "to make an xarray.Dataset")
     return xarray.Dataset(variables, coordinates, attributes)
+
+
+def write_ensemble(ensemble: Ensemble, path: Path) -> None:
+    """Write an ensemble as NetCDF; DataError if that fails, and an older file stays."""
+    dataset = ensemble_dataset(ensemble)
+    with atomic_write(path) as draft:
+        dataset.to_netcdf(draft)
 
 
 def _of_quantity(
