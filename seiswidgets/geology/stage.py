@@ -111,6 +111,8 @@ class Stage:
         What was held, in the present-day section's units; see `Restoration.unfault`.
     drawn : tuple of Fault or Horizon
         The picks that the step was given, on the present-day section.
+    age : float, optional
+        Time that the rock after the step stands for, in Ma.
     """
 
     kind: str
@@ -128,6 +130,7 @@ class Stage:
     regional: float | Sequence[tuple[float, float]] | None = None
     slip: Mapping[str, SlipProfile] = field(default_factory=dict)
     drawn: tuple[Fault | Horizon, ...] = ()
+    age: float | None = None
 
     def __post_init__(self) -> None:
         self.vertices.setflags(write=False)

@@ -16,5 +16,9 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submod_attrs={"figures": ["deformation", "workflow"], "panels": ["mesh", "restoration", "section"]},
+    submod_attrs={
+        "figures": ["deformation", "workflow"],
+        "panels": ["mesh", "restoration", "section"],
+        "story": ["storyboard"],
+    },
 )

@@ -14,9 +14,9 @@ from seiswidgets.core.deformation import AREA_RATIO_COLOURS, area_ratio_histogra
 from seiswidgets.geology.pick_colours import PickColours
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.scenes import ACTIONS
 from seiswidgets.plot.frame import WIDTH, PlotFrame, Window, plot_frame
 from seiswidgets.plot.panels import (
-    ACTIONS,
     amplitude_limit,
     draw_pick_lines,
     draw_picks,

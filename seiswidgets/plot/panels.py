@@ -13,13 +13,13 @@ from seiswidgets.geology.bodies import BODY, Body
 from seiswidgets.geology.pick_colours import PickColours, pick_colours
 from seiswidgets.geology.picks import FAULT, HORIZON, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.scenes import ACTIONS
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
 from seiswidgets.plot.frame import NO_DATA, PLAIN_TEXT, PlotFrame, Window, edges, plot_frame
 from seiswidgets.signatures import strict_keywords
 
 MESH_COLOUR = "#d81b60"
-ACTIONS = {"unfault": "unfaulting", "flatten": "flattening"}
 HALO = [withStroke(linewidth=3.2, foreground="0.15", alpha=0.75)]  # dark: most colours of picks are light
 AnyPick = Fault | Horizon | Body
 KIND_OF: dict[type, str] = {Fault: FAULT, Horizon: HORIZON, Body: BODY}
@@ -169,6 +169,7 @@ def draw_picks(
     interpretation: Interpretation | None,
     frame: PlotFrame,
     colours: PickColours | None = None,
+    fontsize: float = 8.5,
 ) -> None:
     """Draw the original's picks after restoration, each with its name."""
     picks = draw_pick_lines(ax, restored, interpretation, colours)
@@ -176,7 +177,7 @@ def draw_picks(
         points = frame.visible(np.concatenate([np.empty((0, 2)), *lines]))
         if len(points):
             placement = _below_or_beside(points, frame) if isinstance(pick, Fault) else _above_start(points)
-            look: dict[str, Any] = {"color": colour, "path_effects": HALO, "fontsize": 8.5, "fontweight": "bold"}
+            look: dict[str, Any] = {"color": colour, "path_effects": HALO, "fontsize": fontsize, "fontweight": "bold"}
             ax.annotate(pick.name, textcoords="offset points", **placement, **look, **PLAIN_TEXT)
 
 

@@ -1,0 +1,97 @@
+"""The storyboard: how a section evolved, one panel a step."""
+
+from textwrap import fill
+
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seiswidgets.geology.pick_colours import PickColours
+from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.scenes import scenes
+from seiswidgets.geology.validation import checked_kind, whole_number
+from seiswidgets.plot.frame import FOOTNOTE, PLAIN_TEXT, PlotFrame, Window, plot_frame
+from seiswidgets.plot.panels import amplitude_limit, draw_picks, draw_section, first_stages
+from seiswidgets.signatures import strict_keywords
+
+WIDTH = 7.1  # inches: 180 mm, the width of a printed page
+FONT = 9.0  # points
+COLUMNS = 2
+LETTERS = 96  # across the figure
+
+
+@strict_keywords
+def storyboard(
+    restored: Restoration,
+    interpretation: Interpretation | None = None,
+    *,
+    columns: int | None = None,
+    oldest_first: bool = False,
+    colours: PickColours | None = None,
+    clip: float = 99.0,
+    cmap: str = "gray",
+    exaggeration: float | None = None,
+    window: Window | None = None,
+    figure: Figure | None = None,
+) -> Figure:
+    """Draw a restoration step by step, from the present day back in time, in panels of the same scale and colours.
+
+    Each panel is the section after a stage, with its picks; stages of the same age, as a sequential restoration makes
+    them, share one. The figure is as wide as a printed page, with letters of 9 points and lines that stay sharp.
+
+    Parameters
+    ----------
+    restored : Restoration
+    interpretation : Interpretation, optional
+        Picks to draw; by default those that the stages were given.
+    columns : int, optional
+        Number of panels beside each other; 2 if left out, or 1 for a single stage.
+    oldest_first : bool
+        True to tell the story forwards: from the oldest state to the present day.
+    colours, clip, cmap
+        As for ``section``; the same in all panels.
+    exaggeration, window
+        As described for this module.
+    figure : Figure, optional
+        An empty figure to draw on; its size is set. If left out, pyplot makes one.
+
+    Raises
+    ------
+    SettingError
+        If a keyword is out of its range, or ``restored`` is not a Restoration.
+    """
+    checked_kind(restored, Restoration, "restored")
+    picks = restored.interpretation if interpretation is None else interpretation
+    shown = scenes(restored.stages)
+    steps = [first_stages(restored, scene.count) for scene in shown]
+    across = min(COLUMNS, len(shown) - 1 or 1) if columns is None else whole_number("columns", columns, least=1)
+    frame = plot_frame(restored.original, [step.section for step in steps], exaggeration, window)
+    limit = amplitude_limit(restored.original, clip)
+    figure = plt.figure() if figure is None else figure
+    panels = _make_panels(figure, len(steps), across, frame)
+    story = list(zip(steps, shown, strict=True))
+    for number, (ax, (step, scene)) in enumerate(zip(panels, story[::-1] if oldest_first else story, strict=True), 1):
+        draw_section(ax, step, limit, cmap)
+        frame.apply_to(ax, "")
+        ax.set_title(fill(f"{number}  {scene.label}", LETTERS // across), loc="left", fontsize=FONT, **PLAIN_TEXT)
+        _label(ax, (number - 1) % across == 0, number > len(panels) - across)
+        draw_picks(ax, step, picks, frame, colours, fontsize=FONT)
+    figure.supxlabel(frame.footnote, x=0.01, **{**FOOTNOTE, "fontsize": FONT})
+    return figure
+
+
+def _make_panels(figure: Figure, count: int, columns: int, frame: PlotFrame) -> list[Axes]:
+    """Axes in rows of equal size; the figure gets the size that they need."""
+    rows = -(-count // columns)
+    height = (WIDTH - 0.8) / columns * frame.height_over_width
+    figure.set(size_inches=(WIDTH, rows * (height + 0.3) + 0.75), layout_engine="compressed")
+    grid = figure.add_gridspec(rows, columns)
+    return [figure.add_subplot(grid[divmod(index, columns)]) for index in range(count)]
+
+
+def _label(ax: Axes, at_left: bool, at_bottom: bool) -> None:
+    """Leave labels only where no neighbour has them."""
+    ax.tick_params(labelsize=FONT, labelleft=at_left, labelbottom=at_bottom)
+    ax.set_xlabel(ax.get_xlabel() if at_bottom else "", fontsize=FONT)
+    ax.set_ylabel(ax.get_ylabel() if at_left else "", fontsize=FONT)
