@@ -15,14 +15,16 @@ extensions = ["myst_nb", "numpydoc", "sphinx.ext.autodoc"]
 
 # The source directory is the project's root, so that the notebooks and CONTRIBUTING.md become pages without copies.
 root_doc = "docs/index"
-include_patterns = ["docs/**", "notebooks/*.ipynb", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSES.md"]
+include_patterns = ["docs/**", "notebooks/*.ipynb", "teaching/*.md", "CHANGELOG.md", "CONTRIBUTING.md"]
+include_patterns += ["LICENSES.md"]
 exclude_patterns = [".venv", "docs/_build", "notebooks/dashboard.ipynb"]
 
 default_role = "literal"
 myst_heading_anchors = 3
 nb_execution_mode = "cache"  # a notebook runs again only when its code has changed
 nb_execution_cache_path = str(Path(__file__).parent / "_build" / "cache")
-nb_execution_excludepatterns = [] if "SEISWIDGETS_DATA_DIR" in os.environ else ["06_real_sections.ipynb"]
+nb_execution_excludepatterns = ["lab.ipynb"]  # which saves a student's work
+nb_execution_excludepatterns += [] if "SEISWIDGETS_DATA_DIR" in os.environ else ["06_real_sections.ipynb"]
 nb_execution_timeout = 120
 # Without a kernel, pages show the app as an image and an exercise as its question, so that they need no widgets.
 nb_mime_priority_overrides = [("html", "image/png", 0), ("html", "text/html", 1)]

@@ -1,4 +1,4 @@
-"""Command line ``python -m seiswidgets``: restores sessions, and studies how certain they are, without a notebook."""
+"""Command line ``python -m seiswidgets``: restores sessions, studies how certain they are, and grades classes."""
 
 import argparse
 import shutil
@@ -10,6 +10,7 @@ from seiswidgets import __version__
 from seiswidgets.errors import SeiswidgetsError, Text
 from seiswidgets.geology.findings import worst_first
 from seiswidgets.io.session.replay import Replay, output_names, replay_session
+from seiswidgets.io.teaching import add_teaching_commands
 
 BAR_WIDTH = 24
 HALF = 5  # iterations after which half of a step is shown as done: nobody knows how many it will take
@@ -31,7 +32,11 @@ Existing files of these names are replaced."""
 def main(arguments: list[str] | None = None) -> int:
     """Run the command; return 0 if all went well, 1 if a session could not be restored, 2 if it was called wrongly."""
     options = _parser().parse_args(arguments)
-    return int(options.run(options))
+    try:
+        return int(options.run(options))
+    except SeiswidgetsError as error:
+        sys.stderr.write(f"{error.text.rendered(OPTIONS)}\n")
+        return 1
 
 
 def _restore_all(options: argparse.Namespace) -> int:
@@ -64,6 +69,7 @@ def _parser() -> argparse.ArgumentParser:
     restore.add_argument("--handout", action="store_true", help="write a web page with both sections, too")
     _add_permissions(restore)
     _add_ensemble(commands)
+    add_teaching_commands(commands)
     return parser
 
 

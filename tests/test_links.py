@@ -4,13 +4,16 @@ import re
 from pathlib import Path
 
 import nbformat
+import pytest
 
 import seiswidgets as sw
+from seiswidgets.__main__ import main
 
 ROOT = Path(__file__).parents[1]
 TARGETS = set(re.findall(r"^([a-z-]+):(?!=)", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
-PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md")), *NOTEBOOKS]
+PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "teaching").glob("*.md"))]
+PAGES += NOTEBOOKS
 PAGES = [page for page in PAGES if "_build" not in page.parts]
 FENCED = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 SUFFIXES = "md|py|toml|txt|json|ipynb|css|js|png"
@@ -84,7 +87,10 @@ def test_commands_can_be_made():
     targets = on_pages(lambda page: re.findall(r"^make ([a-z-]+)", code(page), re.MULTILINE))
     assert missing(targets, lambda page, target: target in TARGETS) == []
     commands = [word for page in PAGES for word in re.findall(r"python -m seiswidgets (\w+)", code(page))]
-    assert set(commands) == {"restore"}
+    assert {"restore", "assign", "grade"} <= set(commands)
+    for command in set(commands):
+        with pytest.raises(SystemExit, match="0"):
+            main([command, "--help"])
 
 
 def test_public_names_exist():

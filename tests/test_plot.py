@@ -297,3 +297,30 @@ def test_a_pick_has_the_colour_that_it_has_in_the_app():
 
 def case_restored(case):
     return sw.Plan(spacing=200.0).restore(case.section, case.interpretation, fixed=case.fixed)
+
+
+def test_picks_are_drawn_beside_the_truth_with_their_errors(case):
+    true = case.interpretation
+    low = sw.Horizon(*(piece + [0, 9] for piece in true.horizons[0].pieces), name="$mine$")
+    ax = sw.plot.comparison(case.section, sw.Interpretation(true.faults, [low]), true)
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert labels == ["F1: 0 m off", "H1: 9 m off", "H2: not picked", "truth"]
+    assert ax.get_legend().get_texts()[0].get_fontsize() >= 9
+    dashed = [line for line in ax.lines if line.get_linestyle() == "--" and len(line.get_xdata())]
+    assert len(dashed) == 5
+
+
+def test_a_class_is_drawn_as_lines_bands_and_throws(case):
+    true = case.interpretation
+    everybody = [
+        sw.Interpretation(
+            true.faults, [sw.Horizon(bed.pieces[0], bed.pieces[1] + [0, down]) for bed in true.horizons[:1]]
+        )
+        for down in range(-10, 11, 5)
+    ]
+    figure = sw.plot.pooled(case.section, sw.pool_picks(case.section, everybody, true), figure=Figure())
+    left, right = figure.axes
+    assert left.get_title("left") == "5 interpretations"
+    assert [label.get_text() for label in right.get_yticklabels()] == ["H1 at F1", "H2 at F1"]
+    throws = right.lines[0].get_xdata()
+    assert np.ptp(throws) == pytest.approx(20, abs=1)

@@ -17,6 +17,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
+        "comparison": ["comparison", "pooled"],
         "figures": ["deformation", "workflow"],
         "panels": ["mesh", "restoration", "section"],
         "story": ["storyboard"],

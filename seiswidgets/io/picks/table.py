@@ -88,10 +88,10 @@ def as_text(interpretation: Interpretation, x_unit: str, z_unit: str) -> str:
         pieces = pick.pieces if isinstance(pick, Horizon) else (pick.points,)
         choices = () if usual else choices_of(pick)
         for count, piece in enumerate(pieces, 1):
-            writer.writerows([kind, _guarded(pick.name), count, x, z, *choices] for x, z in piece.tolist())
+            writer.writerows([kind, guarded(pick.name), count, x, z, *choices] for x, z in piece.tolist())
     return table.getvalue()
 
 
-def _guarded(name: str) -> str:
+def guarded(name: str) -> str:
     """A name that no spreadsheet takes for a formula; `read` removes the apostrophe."""
     return f"'{name}" if FORMULA.match(name) else name
