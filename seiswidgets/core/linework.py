@@ -12,6 +12,7 @@ from shapely.ops import substring
 
 SNAP = 2.0**-30  # of the outline's width and height; points that lie closer become one
 MERGED = 1e-3  # of the spacing: points that lie closer to each other, or to a line, become one with it
+AWAY = 2.0  # times the reach: a stretch whose middle lies farther from the border does not follow it
 REPEATED = 0.2  # of the reach of a border: points that lie closer once they are on it become one
 STRAIGHT = 1.1  # length of the border between two points of a line that follows it, as a multiple of their distance
 REACH = 0.1  # of the spacing: a line that ends so close to the outline meets it
@@ -59,7 +60,8 @@ def follow_border(line: LineString, border: LineString, reach: np.ndarray) -> Li
         Distance that counts as close, along x and along z.
     """
     points = shapely.get_coordinates(line)
-    near = shapely.dwithin(shapely.points(points / reach), shapely.transform(border, lambda xz: xz / reach), 1.0)
+    scaled = shapely.transform(border, lambda xz: xz / reach)
+    near = shapely.dwithin(shapely.points(points / reach), scaled, 1.0)
     if not near.any():
         return line
     corners = _corners(border)
@@ -70,8 +72,9 @@ def follow_border(line: LineString, border: LineString, reach: np.ndarray) -> Li
     arc_lengths = shapely.line_locate_point(border, shapely.points(points))
     points[near] = shapely.get_coordinates(shapely.line_interpolate_point(border, arc_lengths[near]))
     parts = [points[:1]]
+    middles = shapely.dwithin(shapely.points((points[1:] + points[:-1]) / 2 / reach), scaled, AWAY)
     for index in range(1, len(points)):
-        along = near[index - 1] and near[index]
+        along = near[index - 1] and near[index] and middles[index - 1]
         between = _border_between(border, *arc_lengths[index - 1 : index + 1]) if along else None
         if between is not None and between.length <= STRAIGHT * np.hypot(*(points[index] - points[index - 1])):
             parts.append(shapely.get_coordinates(between)[1:-1])

@@ -185,10 +185,13 @@ class Stitch(PaperTerm):
 
 @dataclass(frozen=True, eq=False)
 class Level(PaperTerm):
-    """Term that brings vertices to a level z (eq. 20). The paper's target for x, its present value, would only drag."""
+    """Term that brings vertices to a level z, one for all or one for each (eq. 20).
+
+    The paper's target for x, its present value, would only drag.
+    """
 
     vertices: np.ndarray
-    datum: float
+    datum: float | np.ndarray
     count: int
     weight: float = 1.0
     name = "level"
@@ -199,7 +202,8 @@ class Level(PaperTerm):
         return sparse_rows(self.vertices[:, None], np.full((len(self.vertices), 1), self.weight), self.count)
 
     def target(self, vertices: np.ndarray) -> np.ndarray:
-        return self.weight * np.column_stack([vertices[self.vertices, 0], np.full(len(self.vertices), self.datum)])
+        datum = np.broadcast_to(self.datum, self.vertices.shape)
+        return self.weight * np.column_stack([vertices[self.vertices, 0], datum])
 
     def residual(self, vertices: np.ndarray) -> np.ndarray:
         return self.weight * (vertices[self.vertices, 1] - self.datum)

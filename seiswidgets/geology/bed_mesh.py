@@ -73,7 +73,7 @@ class Bed:
         """The points that ``edges`` refer to, after a deformation; shape (n, 2)."""
         return vertices if self.points is None else self.points.positions(vertices)
 
-    def level(self, datum: float, weight: float) -> Level:
+    def level(self, datum: float | np.ndarray, weight: float) -> Level:
         """The term that brings the horizon to a datum, in terms of ``positions``."""
         count = len(self.mesh.vertices) if self.points is None else len(self.points.corners)
         return Level(np.unique(self.edges), datum, count, weight * self.reach)

@@ -10,7 +10,7 @@ from shapely.ops import substring
 
 from seiswidgets.core.linework import longest_first
 from seiswidgets.errors import PickError
-from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.domain import ON_BORDER, RestorationDomain
 from seiswidgets.geology.picks import AUTO, EXTEND, TIP, Ends
 from seiswidgets.geology.shared_stretches import follow, shared_stretches
 
@@ -146,7 +146,11 @@ def _fit_ends(
 ) -> LineString:
     """Extend the ends of a fault to a line that they nearly meet, or cut them back to it."""
     start, stop = 0.0, line.length
+    along = line.intersection(domain.outline.boundary.buffer(ON_BORDER * domain.sample))
+    scarps = [part for part in shapely.get_parts(along) if part.length > 2 * domain.sample]  # where it is the border
     for arc_length in (line.project(point) for other in others for point in _common_points(line, other)):
+        if shapely.dwithin(scarps, line.interpolate(arc_length), domain.sample).any():
+            continue
         if ends[0] == AUTO and 0 < arc_length <= line.length / 2 and _is_near(substring(line, 0, arc_length), domain):
             start = max(start, arc_length)
         before_end = substring(line, arc_length, line.length)

@@ -14,18 +14,21 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.observations import observe_level
 from seiswidgets.geology.solve import SolverOptions, minimise, warm_start
 from seiswidgets.geology.stage import Outcome, Stage
+from seiswidgets.geology.stratigraphy import Profile, profile_at
+
+AGAIN = 2  # times that a horizon is brought to a datum that varies along the section
 
 
 def flatten_stage(
     domain: RestorationDomain,
     name: str,
     pieces: Sequence[LineString],
-    datum: float | None,
+    datum: float | Profile | None,
     options: SolverOptions,
     guides: Sequence[LineString] = (),
     before: Stage | None = None,
 ) -> Stage:
-    """Make a horizon level.
+    """Bring a horizon to a level, or to a profile.
 
     Parameters
     ----------
@@ -34,7 +37,7 @@ def flatten_stage(
         Name of the horizon.
     pieces : list of LineString
         The horizon before the step.
-    datum : float or None
+    datum : float, or points (x, z), or None
         In metres of rock; None for the horizon's mean level.
     options : SolverOptions
     guides : list of LineString
@@ -46,21 +49,24 @@ def flatten_stage(
     bed = mesh_bed(domain, name, pieces, options.start, before)
     mesh = bed.mesh
     datum = _mean_level(bed.positions(mesh.vertices)[bed.edges]) if datum is None else datum
-    level = bed.level(datum, options.row_weights.flatten)
-    free = np.ones(len(mesh.vertices), bool)
+    varies, free = isinstance(datum, tuple), np.ones(len(mesh.vertices), bool)
     start = warm_start(mesh, free, options.start)
-    start = mesh.vertices if start is None else start
-    terms = [
-        MeanValue(mesh, options.row_weights.mean_value),
-        ContourLaplacian(mesh, options.row_weights.contour),
-        *bed.terms(level, options.row_weights),
-        AreaBarrier(mesh),
-        *bedding_terms(mesh, [*pieces, *guides], domain.spacing, options.row_weights),
-    ]
-    solution = minimise(mesh, terms, start, free, domain, options)
-    vertices = solution.vertices.copy()
-    drift = np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=mesh.vertex_areas)
-    vertices[:, 0] -= drift  # a shift of the whole sideways costs nothing: choose the least
+    vertices = mesh.vertices if start is None else start
+    bedding = bedding_terms(mesh, [*pieces, *guides], domain.spacing, options.row_weights)
+    for _ in range(AGAIN if varies else 1):  # the datum below each point depends on where it comes to lie
+        target = profile_at(datum, bed.positions(vertices)[np.unique(bed.edges), 0])
+        level = bed.level(target, options.row_weights.flatten)
+        terms = [
+            MeanValue(mesh, options.row_weights.mean_value),
+            ContourLaplacian(mesh, options.row_weights.contour),
+            *bed.terms(level, options.row_weights),
+            AreaBarrier(mesh),
+            *bedding,
+        ]
+        solution = minimise(mesh, terms, vertices, free, domain, options)
+        vertices = solution.vertices.copy()
+    if not varies:  # a shift of the whole sideways costs nothing: choose the least
+        vertices[:, 0] -= np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=mesh.vertex_areas)
     observe = partial(observe_level, name, bed, level, vertices, domain)
     outcome = Outcome((name,), solution, options.solver, time.perf_counter() - began, observe)
     return Stage("flatten", mesh, vertices, (), domain, outcome, bed)

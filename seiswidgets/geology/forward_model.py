@@ -54,25 +54,26 @@ class Synthetic:
 def make_synthetic(name: str, survey: Survey, depths: Depths, history: KnownHistory) -> Synthetic:
     """Deposit beds, deform them by a history, and pick faults and horizons."""
     rng = np.random.default_rng(survey.seed)
-    trace = _trace(rng, depths)
+    trace = beds_trace(rng, depths)
     faults = [Fault(survey.snap(line), name=f"F{index}") for index, line in enumerate(history.lines(survey), 1)]
     horizons = [
         Horizon(*_pieces(history, survey, faults, depth), name=f"H{index}") for index, depth in enumerate(depths, 1)
     ]
-    section = Section(_amplitude(rng, survey, history, trace), survey.dx, survey.dz, name=name)
+    deposited = history.to_restored(survey.grid().reshape(-1, 2))[:, 1]
+    section = Section(noisy_amplitude(rng, survey, deposited, trace), survey.dx, survey.dz, name=name)
     answer = history.block, history.to_unfaulted, history.to_restored
     return Synthetic(section, Interpretation(faults, horizons), trace, _held(history, survey), *answer)
 
 
-def _amplitude(rng: np.random.Generator, survey: Survey, history: KnownHistory, trace: np.ndarray) -> np.ndarray:
-    grid = survey.grid()
-    deposited = history.to_restored(grid.reshape(-1, 2))[:, 1].reshape(grid.shape[:2])
+def noisy_amplitude(rng: np.random.Generator, survey: Survey, deposited: np.ndarray, trace: np.ndarray) -> np.ndarray:
+    """Amplitudes of samples that were deposited at some depths, and noise; shape (nz, nx)."""
+    deposited = deposited.reshape(survey.grid().shape[:2])
     noise = gaussian_filter(rng.standard_normal(deposited.shape), (1.5, 2))
     noise *= survey.noise * trace[:, 1].std() / noise.std()
     return (np.interp(deposited, *trace.T) + noise).astype(np.float32)
 
 
-def _trace(rng: np.random.Generator, depths: Depths) -> np.ndarray:
+def beds_trace(rng: np.random.Generator, depths: Depths) -> np.ndarray:
     """Random beds, in packages quieter and louder, with a strong reflector at each horizon; the trace's RMS is 1."""
     tops = BEDS[0] + np.cumsum(rng.gamma(2.0, 12.0, size=2000))
     loudness = np.interp(tops, BEDS[::150], rng.gamma(1.0, 0.5, size=len(BEDS[::150])))

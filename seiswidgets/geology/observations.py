@@ -72,6 +72,14 @@ def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, dom
     return Observations(beds=(report,), findings=(*uneven, *stretched))
 
 
+def observe_bed(
+    name: str, edges: np.ndarray, before: np.ndarray, after: np.ndarray, domain: RestorationDomain
+) -> Observations:
+    """Measure how the length of a horizon has changed that was brought to its datum exactly."""
+    report = BedReport(name, length_change([edges], before, after), 0.0)
+    return Observations(beds=(report,), findings=tuple(_stretched(name, [edges], before, after, domain)))
+
+
 def length_change(edges: Sequence[np.ndarray], before: np.ndarray, after: np.ndarray) -> float:
     """Relative change of the total length of some polylines.
 

@@ -7,6 +7,7 @@ from html import escape
 from seiswidgets.geology.findings import COLOURS, Finding, worst_first
 
 LEAST = 0.001  # metres between cut-offs that are worth a figure
+CLOSED_FORM = "closed form"  # solver of a stage that needs none
 CONSTRAINTS = {"cut-off", "slip", "contact", "datum", "bed length", "overlap"}  # kinds of findings
 
 
@@ -89,13 +90,14 @@ class BodyReport:
 
 @dataclass(frozen=True)
 class Observations:
-    """Cut-offs, seams, beds, findings and prescribed slip of a stage."""
+    """Cut-offs, seams, beds, findings, prescribed slip and details of a stage: labels and texts, with units."""
 
     cutoffs: tuple[CutOffReport, ...] = ()
     seams: tuple[SeamReport, ...] = ()
     beds: tuple[BedReport, ...] = ()
     findings: tuple[Finding, ...] = ()
     slips: tuple[SlipReport, ...] = ()
+    details: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -104,9 +106,10 @@ class Report:
 
     Attributes
     ----------
-    kind : "unfault" or "flatten"
+    kind : str
+        "unfault", "flatten", "strip", "unerode", "decompact" or "isostasy".
     picks : tuple of str
-        The names of the faults, or of the horizon.
+        The names of the faults, or of the horizons.
     solver : str
     vertices, triangles : int
     iterations, factorisations : int
@@ -147,6 +150,10 @@ class Report:
         Height of a sample, in metres.
     velocity : str
         Velocities that relate time to depth, and their source; "" for a section that was in depth.
+    age : float, optional
+        Time that the rock after the step stands for, in Ma.
+    details : tuple of (str, str)
+        What else the step did: labels, and texts with units.
     """
 
     kind: str
@@ -175,6 +182,8 @@ class Report:
     z_unit: str = "m"
     sample: float = 1.0
     velocity: str = ""
+    age: float | None = None
+    details: tuple[tuple[str, str], ...] = ()
 
     @property
     def unmet(self) -> tuple[str, ...]:
@@ -191,11 +200,13 @@ class Report:
 
         The verdict comes first, then the other findings, throw and heave, beds, areas and motions; the solver last.
         """
-        rows = [(f"{self.kind} {', '.join(self.picks)}", self.verdict)]
+        when = "" if self.age is None else f" ({self.age:g} Ma)"
+        rows = [(f"{self.kind} {', '.join(self.picks)}{when}", self.verdict)]
         rows += [(finding.severity, finding.text) for finding in self.findings if finding is not worst(self.findings)]
         rows += [(f"{cutoff.horizon} at {cutoff.fault}", self._offset(cutoff)) for cutoff in self.cutoffs]
         rows += [(f"slip of {slip.fault}", self._slip(slip)) for slip in self.slips]
         rows += [(f"horizon {bed.horizon}", self._bed(bed)) for bed in self.beds]
+        rows += self.details
         percentiles = ", ".join(f"P{percent} {value:.3f}" for percent, value in self.area_ratio.items())
         rows.append(("area ratio, before / after", f"{percentiles}; above 1, restoring compressed the rock"))
         rows.append(("overlap and gaps", f"{self.overlap:.3g} m² of rock on other rock, {self.gap:.3g} m² of gaps"))
@@ -220,7 +231,7 @@ class Report:
         return f"bed length {bed.length_change:+.2%}{level}"
 
     def _body(self, body: BodyReport) -> str:
-        change = body.after / body.before - 1
+        change = body.after / body.before - 1 if body.before else 0.0
         return f"area {body.before:.4g} m² before, {body.after:.4g} m² after ({change:+.1%})"
 
     def _motion(self, motion: MotionReport) -> str:
@@ -230,6 +241,9 @@ class Report:
         return f"{motion.part}: turned by {turn}, moved by {shift}"
 
     def _solver_rows(self) -> list[tuple[str, str]]:
+        mesh = f"{self.vertices} vertices, {self.triangles} triangles by {self.mesher}, {self.flipped} flipped"
+        if self.solver == CLOSED_FORM:
+            return [("solver", f"none: computed in closed form in {self.seconds:.2f} s"), ("mesh", mesh)]
         iterations = f"{self.iterations} iterations, {self.factorisations} factorisations, {self.seconds:.2f} s"
         return [
             *(
@@ -237,7 +251,7 @@ class Report:
                 for seam in self.seams
             ),
             ("solver", f"{self.solver}: {'settled' if self.converged else 'did NOT settle'} in {iterations}"),
-            ("mesh", f"{self.vertices} vertices, {self.triangles} triangles by {self.mesher}, {self.flipped} flipped"),
+            ("mesh", mesh),
             ("energy (m²)", ", ".join(f"{name} {value:.2g}" for name, value in self.energy.items())),
         ]
 

@@ -10,9 +10,11 @@ import shapely
 from numpy.typing import ArrayLike
 from shapely import LineString
 
+from seiswidgets.core.solver import Progress
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.bodies import Body, body_polygons, without_bodies
+from seiswidgets.geology.decompaction import decompact_stage
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage
@@ -22,6 +24,9 @@ from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile, checked_slip
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
 from seiswidgets.geology.stage import Stage
+from seiswidgets.geology.stratified_rock import StratifiedRock, fault_lines_of
+from seiswidgets.geology.stratigraphy import Profile, Stratigraphy, checked_profile
+from seiswidgets.geology.stripping import strip_stage
 from seiswidgets.geology.transfer import (
     OUTSIDE,
     area_ratio_at,
@@ -32,6 +37,9 @@ from seiswidgets.geology.transfer import (
 )
 from seiswidgets.geology.unfaulting import unfault_stage
 from seiswidgets.geology.usable_picks import Beds, EndsOfFaults, Lines, Regional, UsablePicks
+from seiswidgets.geology.vertical_shear import shear_flat_stage
+
+LENGTH, VERTICAL_SHEAR = "length", "vertical shear"
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,8 +181,10 @@ class Restoration:
         self,
         horizon: Horizon,
         *,
-        datum: float | None = None,
+        datum: float | Profile | None = None,
+        by: str = LENGTH,
         beds: Sequence[Horizon] = (),
+        age: float | None = None,
         **options: Unpack[SolverKeywords],
     ) -> "Restoration":
         """Bring a horizon to one level while it keeps its length (the paper's section 3.2).
@@ -187,8 +197,12 @@ class Restoration:
         Parameters
         ----------
         horizon : Horizon
-        datum : float, optional
-            The level, in the section's unit of z; the horizon's mean level if left out.
+        datum : float or list of (x, z), optional
+            The level, in the section's unit of z, or points of a palaeobathymetry from left to right, joined by
+            straight lines and level beyond; the horizon's mean level if left out.
+        by : {"length", "vertical shear"}
+            The second moves each column of rock up or down, in closed form: it keeps areas, but not the lengths of beds
+            that dip, and suits relief that comes from compaction and subsidence.
         beds : list of Horizon, optional
             Horizons that give the direction of the beds besides this one, for ``weights.bedding``.
         weights, solver, weighting, max_iterations, progress, start
@@ -200,16 +214,105 @@ class Restoration:
             As for `unfault`.
         """
         solver_options = SolverOptions.from_keywords("flatten", options)
+        if by not in (LENGTH, VERTICAL_SHEAR):
+            raise SettingError(f"by must be {LENGTH!r} or {VERTICAL_SHEAR!r}, but is {by!r}")
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
         picks = self.usable_picks
         pieces = picks.bed_lines(horizon)
-        guides = [line for bed in beds if bed.name != horizon.name and bed.constrains for line in picks.bed_lines(bed)]
-        if datum is not None:
-            datum = validation.finite_number("datum", datum) * float(self.original.metres[1])
-        before = self.stages[-1] if self.stages else None
-        stage = flatten_stage(self.domain, horizon.name, pieces, datum, solver_options, guides, before)
-        stage = replace(stage, weights=solver_options.weights, drawn=_drawn(horizon, beds))
-        return self._with_stage(stage, picks.notes([horizon]))
+        level = self._profile_in_rock("datum", datum)
+        if by == VERTICAL_SHEAR:
+            stage = shear_flat_stage(self.domain, horizon.name, pieces, [], level, solver_options.progress)
+        else:
+            others = [bed for bed in beds if bed.name != horizon.name and bed.constrains]
+            guides = [line for bed in others for line in picks.bed_lines(bed)]
+            before = self.stages[-1] if self.stages else None
+            stage = flatten_stage(self.domain, horizon.name, pieces, level, solver_options, guides, before)
+        stage = replace(stage, weights=solver_options.weights, drawn=_drawn(horizon, beds), age=age)
+        return self._with_stage(stage, (*stage.outcome.notes, *picks.notes([horizon])))
+
+    def _profile_in_rock(self, name: str, profile: float | Profile | None) -> float | Profile | None:
+        """A depth, or a profile, in metres of rock."""
+        if profile is None:
+            return None
+        checked, (dx, dz) = checked_profile(name, profile), self.original.metres.tolist()
+        return tuple((x * dx, z * dz) for x, z in checked) if isinstance(checked, tuple) else checked * dz
+
+    def strip(
+        self,
+        horizon: Horizon,
+        *,
+        faults: Sequence[Fault] = (),
+        age: float | None = None,
+        progress: Progress | None = None,
+    ) -> "Restoration":
+        """Remove the rock above a horizon: what lies below stays where it is, and nothing above has a place any more.
+
+        A horizon that does not span the rock is continued level from its ends to the border, and the report says so.
+
+        Parameters
+        ----------
+        horizon : Horizon
+        faults : list of Fault, optional
+            Those that offset the horizon: between two of its pieces the new border follows the fault.
+        age : float, optional
+            Age of the horizon, in Ma.
+        progress : callable(iteration, energy, vertices), optional
+            Called once; returning False cancels.
+
+        Raises
+        ------
+        PickError
+            If no rock is left below the horizon, or its pieces overlap.
+        Cancelled
+        """
+        (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
+        picks = self.usable_picks
+        lines = fault_lines_of(picks, list(validation.named_picks(faults, Fault, "fault").values()))
+        stage = strip_stage(self.domain, horizon.name, picks.bed_lines(horizon), lines, progress)
+        stage = replace(stage, age=age, drawn=_drawn(horizon, faults))
+        return self._with_stage(stage, (*stage.outcome.notes, *picks.notes([horizon])))
+
+    def decompact(
+        self,
+        stratigraphy: Stratigraphy,
+        interpretation: Interpretation,
+        *,
+        age: float | None = None,
+        progress: Progress | None = None,
+    ) -> "Restoration":
+        """Let the rock expand to the porosity of its present depth of burial, column by column.
+
+        Each column keeps its thickness of grains, and its bottom stays where it is. Rock never becomes looser than its
+        deepest burial so far left it; see `Lithology` for the law.
+
+        Parameters
+        ----------
+        stratigraphy : Stratigraphy
+        interpretation : Interpretation
+            Holds the tops of the layers, and the faults that divide them.
+        age : float, optional
+            In Ma.
+        progress : callable(iteration, energy, vertices), optional
+            Called once; returning False cancels.
+
+        Raises
+        ------
+        PickError
+            If a top does not exist, or two tops cross.
+        FlippedError
+            If the rock expands so differently from column to column that triangles would turn over.
+        Cancelled
+        """
+        rock = self.stratified(stratigraphy, interpretation)
+        stage = decompact_stage(self.domain, rock.layers, stratigraphy, rock.memory, rock.notes, progress)
+        drawn = _drawn(list(rock.tops.values()), interpretation.faults)
+        return self._with_stage(replace(stage, age=age, drawn=drawn), stage.outcome.notes)
+
+    def stratified(self, stratigraphy: Stratigraphy, interpretation: Interpretation) -> StratifiedRock:
+        """The rock that the next stage starts from, divided into layers."""
+        validation.checked_kind(stratigraphy, Stratigraphy, "stratigraphy")
+        validation.checked_kind(interpretation, Interpretation, "interpretation")
+        return StratifiedRock(self.usable_picks, stratigraphy, interpretation)
 
     @property
     def interpretation(self) -> Interpretation:

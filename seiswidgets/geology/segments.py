@@ -287,6 +287,8 @@ def join_pieces(
     apart : set of (index, end)
         Ends (0 or -1) of pieces that stay as they are.
     """
+    if not pieces:
+        return []
     points = [shapely.get_coordinates(piece).copy() for piece in pieces]
     ends = [(piece, end) for piece in range(len(points)) for end in (0, -1) if (piece, end) not in apart]
     pairs = sorted(

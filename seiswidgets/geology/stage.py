@@ -19,7 +19,7 @@ from seiswidgets.core.seams import new_holes, outline
 from seiswidgets.core.solver import Solution
 from seiswidgets.errors import Keyword, Text
 from seiswidgets.geology.bodies import Region
-from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.domain import ON_BORDER, RestorationDomain
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.motion import observe_motion
 from seiswidgets.geology.picks import Fault, Horizon
@@ -29,11 +29,13 @@ from seiswidgets.geology.shared_stretches import follow, split_into_stretches
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.weights import Weights
 
+STRIP = "strip"
 SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
 PERCENTS = (1, 50, 99)
 FINE, LEAST_POINTS = 0.25, 64  # a line is carried at points a quarter of the spacing apart, and at least this many
 WITHIN = np.vstack([np.full(3, 1 / 3), 0.1 + 0.7 * np.eye(3), 0.45 - 0.35 * np.eye(3)])  # points in a triangle
 COMPASS = [np.array([np.sin(turn), np.cos(turn)]) for turn in np.pi / 4 * np.arange(8)]
+TOUCHING = 1e-6  # of the mesh spacing, from a line to a border that it made
 CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
 
 
@@ -88,9 +90,10 @@ class Stage:
 
     Attributes
     ----------
-    kind : "unfault" or "flatten"
+    kind : str
+        "unfault", "flatten", "strip", "unerode", "decompact" or "isostasy".
     mesh : Mesh
-        Before the step.
+        Before the step; of the rock that remains after it.
     vertices : array, shape (n, 2)
         Positions of the mesh's vertices after it.
     faults : tuple of shapely LineString
@@ -113,6 +116,9 @@ class Stage:
         The picks that the step was given, on the present-day section.
     age : float, optional
         Time that the rock after the step stands for, in Ma.
+    burial : array, shape (n,), optional
+        Depth of burial that the porosity at each vertex stands for after the step, in metres; the deepest one, as far
+        as it is known. None if the step leaves porosities as they are.
     """
 
     kind: str
@@ -131,6 +137,7 @@ class Stage:
     slip: Mapping[str, SlipProfile] = field(default_factory=dict)
     drawn: tuple[Fault | Horizon, ...] = ()
     age: float | None = None
+    burial: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         self.vertices.setflags(write=False)
@@ -196,6 +203,8 @@ class Stage:
             z_unit=self.domain.section.z_unit,
             sample=self.domain.sample,
             velocity=self.domain.section.velocity_text,
+            age=self.age,
+            details=observations.details,
         )
 
     def with_notes(self, *notes: Finding) -> "Stage":
@@ -298,6 +307,8 @@ class Stage:
         shares a stretch with another one, that side is chosen, with or without that stretch, on which its parts
         stay together.
         """
+        if self.kind == STRIP:
+            return self._carry(self._kept(line), 0.0)
         line = follow(line, self.faults, self.domain.sample)
         parts = split_into_stretches(line, self.faults, self.domain.sample)
         own = [part for part, shared in parts if not shared]
@@ -336,17 +347,45 @@ class Stage:
         carried = [self._carry_line(line, sideways) for line in lines]
         return [line for line in carried if line is not None]
 
+    def _kept(self, line: LineString) -> list[LineString]:
+        """The parts of a fault that lie in the rock that remains, or along its border, which follows faults exactly."""
+        parts = shapely.get_parts(line.intersection(self.outline.buffer(TOUCHING * self.spacing)))
+        return [part for part in parts if part.geom_type == "LineString" and part.length > self.domain.sample]
+
     def _carry_line(self, line: LineString, sideways: float) -> LineString | None:
         points = shapely.get_coordinates(line.segmentize(min(FINE * self.spacing, line.length / LEAST_POINTS)))
-        within = points.copy()  # a line's end on a fault belongs to the triangles of its own side
+        within = points.copy()  # what ends on a fault belongs to the triangles of its own side
         nudge = min(INWARDS * self.spacing, line.length / 4)
-        within[[0, -1]] = [line.interpolate(distance).coords[0] for distance in (nudge, line.length - nudge)]
+        at = np.append(0.0, np.hypot(*np.diff(points, axis=0).T).cumsum())
+        for end, distance in ((at < nudge, nudge), (at > line.length - nudge, line.length - nudge)):
+            within[end] = line.interpolate(distance).coords[0]
         along = np.gradient(points, axis=0)
         lengths = np.maximum(np.hypot(*along.T), np.finfo(float).tiny)  # 0 where a line turns back
         within += sideways * along[:, ::-1] * [-1, 1] / lengths[:, None]
-        moved = self.map.forward(points, self.map.source_finder(within))
+        triangles = self.map.source_finder(within)
+        missing = np.flatnonzero(triangles < 0)
+        if len(missing):
+            near, edge = self._border.query_nearest(
+                shapely.points(within[missing]), max_distance=ON_BORDER * self.domain.sample, all_matches=False
+            )
+            missing = missing[near]
+            triangles[missing] = self.mesh.boundary_half_edges[edge] // 3
+            points[missing] = _onto(points[missing], self._border.geometries[edge])
+        moved = self.map.forward(points, triangles)
         moved = moved[np.isfinite(moved).all(axis=1)]
         return LineString(moved) if len(moved) > 1 else None
+
+    @cached_property
+    def _border(self) -> shapely.STRtree:
+        """The edges of the mesh's boundary, before the step: a line along the border may lie just outside them."""
+        return shapely.STRtree(shapely.linestrings(self.mesh.vertices[self.mesh.boundary]))
+
+
+def _onto(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """The point of each edge nearest to a point, shape (n, 2)."""
+    return shapely.get_coordinates(
+        shapely.line_interpolate_point(edges, shapely.line_locate_point(edges, shapely.points(points)))
+    )
 
 
 def _gaps(lines: Sequence[LineString]) -> float:

@@ -8,6 +8,7 @@ from typing import Unpack
 
 import numpy as np
 
+from seiswidgets.geology.basins import SyntheticBasin, compacted_basin, folded_unconformity, growth_fault, half_graben
 from seiswidgets.geology.forward_model import Depths, Synthetic, make_synthetic
 from seiswidgets.geology.kinematics import (
     STILL,
@@ -26,12 +27,17 @@ from seiswidgets.geology.parallel_flow import FlexuralSlip, ThrustSequence, chec
 
 __all__ = [
     "Synthetic",
+    "SyntheticBasin",
     "blind_fault",
+    "compacted_basin",
     "domino",
     "fault_bend_fold",
     "faulted_fold",
     "flexural_fold",
+    "folded_unconformity",
     "graben",
+    "growth_fault",
+    "half_graben",
     "listric_fault",
     "planar_fault",
     "sine_fold",

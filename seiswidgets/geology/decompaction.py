@@ -1,0 +1,200 @@
+"""Decompaction: what lies below expands as its cover is taken away, column by column.
+
+Each column of rock keeps its thickness of grains while its pores open by Athy's law. Porosity remembers the deepest
+burial: rock that was eroded or uplifted does not expand beyond what it had there.
+"""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from seiswidgets.core.mesh import Mesh
+from seiswidgets.core.point_location import barycentric_coefficients
+from seiswidgets.core.solver import Progress
+from seiswidgets.geology.closed_form import ClosedForm
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.layers import WATER, Columns, Layers
+from seiswidgets.geology.lithology import PER_KM, pore_thickness, thickness_at
+from seiswidgets.geology.picks import FAULT, HORIZON
+from seiswidgets.geology.report import Observations
+from seiswidgets.geology.stage import STRIP, Stage
+from seiswidgets.geology.stratigraphy import Stratigraphy
+
+PARTS = 4  # that each stretch of a column is divided into
+INWARDS = 1e-3  # of a stretch: its porosity is read inside it
+
+
+@dataclass(frozen=True, eq=False)
+class BurialMemory:
+    """The deepest burial of the rock, as far as it is known.
+
+    Attributes
+    ----------
+    stages : sequence of Stage
+        Those so far.
+    sea_floor : array, shape (k, 2)
+        The present-day sea floor, from which burial is measured before the first step that changes it.
+    """
+
+    stages: Sequence[Stage]
+    sea_floor: np.ndarray
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """Depth of burial that the porosity at points after all stages stands for, in metres; shape (n,)."""
+        for stage in reversed(self.stages):
+            if stage.burial is not None:
+                return interpolated(stage, stage.burial, points)
+            if stage.kind != STRIP:  # which leaves every point where it is
+                points = stage.map.inverse(points, stage.map.target_finder(points))
+        return np.asarray(points[:, 1] - np.interp(points[:, 0], *self.sea_floor.T))
+
+
+def interpolated(stage: Stage, values: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Values at a stage's vertices, at points after it; NaN outside."""
+    triangles = stage.map.target_finder(points)
+    corners = stage.mesh.triangles[triangles]
+    x0, z0, bx, bz, cx, cz = barycentric_coefficients(stage.vertices[corners]).T
+    x, z = points[:, 0] - x0, points[:, 1] - z0
+    b, c = bx * x + bz * z, cx * x + cz * z
+    found = (1 - b - c) * values[corners[:, 0]] + b * values[corners[:, 1]] + c * values[corners[:, 2]]
+    return np.where(triangles >= 0, found, np.nan)
+
+
+@dataclass(frozen=True, eq=False)
+class ColumnCompaction:
+    """Porosity along columns, and how they expand.
+
+    Attributes
+    ----------
+    columns : Columns
+    burial : array, shape (n, k, 2)
+        Depth of burial that the porosity stands for at both ends of each stretch, in metres.
+    stratigraphy : Stratigraphy
+    """
+
+    columns: Columns
+    burial: np.ndarray
+    stratigraphy: Stratigraphy
+
+    @classmethod
+    def of(
+        cls, columns: Columns, x: np.ndarray, memory: BurialMemory, stratigraphy: Stratigraphy
+    ) -> "ColumnCompaction":
+        """Read the porosity of columns at x from what is remembered; where nothing is, from the depth below the top."""
+        depth = columns.nodes - columns.surface[:, None, None]
+        rock = (columns.layer != WATER) & (columns.thickness > 0)
+        inside = columns.nodes + INWARDS * columns.thickness[..., None] * [1, -1]
+        points = np.stack([np.broadcast_to(x[:, None, None], inside.shape), inside], axis=-1)[rock]
+        ends = memory(points.reshape(-1, 2)).reshape(-1, 2)
+        middle, half = ends.mean(axis=1), np.diff(ends, axis=1)[:, 0] / (2 - 4 * INWARDS)
+        burial = depth.copy()
+        known = np.isfinite(middle)
+        burial[rock] = np.where(known[:, None], np.column_stack([middle - half, middle + half]), depth[rock])
+        return cls(columns, np.maximum(burial, 0), stratigraphy)
+
+    def _constants(self, stretch: int) -> tuple[np.ndarray, np.ndarray]:
+        """phi0 and c (per metre) of one stretch of each column."""
+        rocks = [layer.rock for layer in self.stratigraphy.layers]
+        phi0, c = np.array([(rock.phi0, rock.c * PER_KM) for rock in rocks] + [(0.0, 0.0)]).T
+        return phi0[self.columns.layer[:, stretch]], c[self.columns.layer[:, stretch]]
+
+    def pores(self) -> np.ndarray:
+        """Thickness of the pores of each stretch, shape (n, k)."""
+        constants = [self._constants(index) for index in range(self.columns.layer.shape[1])]
+        phi0, c = np.stack(constants, axis=-1)
+        return pore_thickness(phi0, c, self.burial[..., 0], self.burial[..., 1], self.columns.thickness)
+
+    def expanded(self) -> tuple[np.ndarray, np.ndarray]:
+        """Thickness of each stretch after expanding, and depth of its lower end below the top of the column.
+
+        Returns
+        -------
+        thickness, depth : array, shape (n, k)
+        """
+        solid = self.columns.thickness - self.pores()
+        thickness, depth = self.columns.thickness.copy(), np.zeros_like(solid)
+        below = np.zeros(len(solid))
+        for index in range(solid.shape[1]):
+            rock = self.columns.layer[:, index] != WATER
+            free = thickness_at(*self._constants(index), solid[:, index], below)
+            deeper = below + free / 2 > self.burial[:, index].mean(axis=1)  # than ever: it was never so loose
+            thickness[:, index] = np.where(rock & ~deeper, free, thickness[:, index])
+            below = below + np.where(rock | (below > 0), thickness[:, index], 0.0)
+            depth[:, index] = below
+        return thickness, depth
+
+
+def decompact_stage(
+    domain: RestorationDomain,
+    layers: Layers,
+    stratigraphy: Stratigraphy,
+    memory: BurialMemory,
+    notes: Sequence[Finding] = (),
+    progress: Progress | None = None,
+) -> Stage:
+    """Let rock expand to the porosity of its present depth below the top; the bottom of each column stays.
+
+    Parameters
+    ----------
+    domain : RestorationDomain
+    layers : Layers
+    stratigraphy : Stratigraphy
+    memory : BurialMemory
+        Before the step.
+    notes : list of Finding
+    progress : callable, optional
+    """
+    began = time.perf_counter()
+    tops = {(HORIZON, _name(stratigraphy, index)): lines for index, lines in layers.tops.items()}
+    mesh = domain.mesh(tops | {(FAULT, ""): layers.faults})
+    x, z = mesh.vertices.T
+    columns = layers.columns(x, z, PARTS)
+    compaction = ColumnCompaction.of(columns, x, memory, stratigraphy)
+    thickness, depth = compaction.expanded()
+    rise = _at_or_above(np.cumsum(thickness - columns.thickness, axis=1), columns.at)
+    grown = np.sum(thickness - columns.thickness, axis=1)
+    burial = np.minimum(_at_or_above(depth, columns.at), _at_or_above(compaction.burial[..., 1], columns.at))
+    vertices = np.column_stack([x, z - (grown - rise)])
+    observe = partial(_observe, mesh, vertices, layers, stratigraphy, memory, burial)
+    return ClosedForm("decompact", tuple(stratigraphy.tops), domain, progress).stage(
+        mesh, vertices, observe, notes, began, burial
+    )
+
+
+def _name(stratigraphy: Stratigraphy, index: int) -> str:
+    return stratigraphy.layers[index].top or ""
+
+
+def _at_or_above(values: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """The value at the lower end of each column's stretch, 0 at the top of the column."""
+    return np.where(at >= 0, np.take_along_axis(values, np.maximum(at, 0)[:, None], axis=1)[:, 0], 0.0)
+
+
+def _observe(
+    mesh: Mesh,
+    vertices: np.ndarray,
+    layers: Layers,
+    stratigraphy: Stratigraphy,
+    memory: BurialMemory,
+    after: np.ndarray,
+) -> Observations:
+    """Porosity and area of each layer before and after."""
+    before = memory(mesh.vertices)
+    index = layers.layer_at(mesh.vertices[mesh.triangles].mean(axis=1))
+    moved = Mesh(vertices, mesh.triangles).areas
+    details = []
+    for number, layer in enumerate(stratigraphy.layers):
+        own = (index == number) & np.isfinite(before[mesh.triangles]).all(axis=1)
+        if own.any():
+            old, new = (
+                np.average(layer.rock.porosity(burial[mesh.triangles[own]].mean(axis=1)), weights=mesh.areas[own])
+                for burial in (before, after)
+            )
+            change = moved[own].sum() / mesh.areas[own].sum() - 1
+            text = f"{layer.rock.name or 'rock'}, porosity {old:.1%} before, {new:.1%} after; area {change:+.1%}"
+            details.append((f"layer below {layer.name}", text))
+    return Observations(details=tuple(details))

@@ -1,0 +1,77 @@
+"""Steps in which whole columns of rock move up or down: flattening by vertical shear, and isostasy."""
+
+import time
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+import shapely
+from shapely import LineString
+
+from seiswidgets.core.mesh import Mesh
+from seiswidgets.core.solver import Progress
+from seiswidgets.core.triangulation import edges_along
+from seiswidgets.errors import PickError
+from seiswidgets.geology.closed_form import ClosedForm
+from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.observations import observe_bed
+from seiswidgets.geology.picks import HORIZON
+from seiswidgets.geology.stage import Stage
+from seiswidgets.geology.stratigraphy import Profile, profile_at
+from seiswidgets.geology.surfaces import surface_line
+
+
+def shear_flat_stage(
+    domain: RestorationDomain,
+    name: str,
+    pieces: Sequence[LineString],
+    faults: Sequence[LineString],
+    datum: float | Profile | None,
+    progress: Progress | None = None,
+) -> Stage:
+    """Move each column up or down until a horizon lies on its datum: exact, and it keeps every area.
+
+    Parameters
+    ----------
+    domain : RestorationDomain
+    name : str
+        Name of the horizon.
+    pieces, faults : list of LineString
+    datum : float, or points (x, z), optional
+        In metres of rock; the horizon's mean level if left out.
+    progress : callable, optional
+
+    Raises
+    ------
+    PickError
+        If the horizon has two depths in one column, as at a reverse fault.
+    """
+    began = time.perf_counter()
+    surface, notes = surface_line(name, pieces, faults, domain)
+    points = shapely.get_coordinates(surface)
+    back = np.flatnonzero(np.diff(points[:, 0]) < -1e-6 * domain.spacing)
+    if len(back):
+        raise PickError(
+            f"{HORIZON} {name!r} has two depths in one column near {domain.where(points[back[0]])}; undo the slip of "
+            "the fault there first, or flatten it by length",
+            pick=name,
+            where=domain.position(points[back[0]]),
+        )
+    points = points[np.append(True, np.diff(points[:, 0]) > 1e-6 * domain.spacing)]
+    mesh = domain.mesh({(HORIZON, name): [surface]})
+    x = mesh.vertices[:, 0]
+    target = profile_at(_mean_level(points, domain) if datum is None else datum, x)
+    vertices = mesh.vertices + np.outer(target - np.interp(x, *points.T), (0, 1))
+    observe = partial(observe_bed, name, _edges(mesh, surface, domain), mesh.vertices, vertices, domain)
+    return ClosedForm("flatten", (name,), domain, progress).stage(mesh, vertices, observe, notes, began)
+
+
+def _mean_level(points: np.ndarray, domain: RestorationDomain) -> float:
+    x_min, _, x_max, _ = domain.outline.bounds
+    return float(np.interp(np.linspace(x_min, x_max, 1001), *points.T).mean())
+
+
+def _edges(mesh: Mesh, surface: LineString, domain: RestorationDomain) -> np.ndarray:
+    inside = shapely.get_parts(surface.intersection(domain.outline.buffer(1e-6 * domain.spacing)))
+    lines = [part for part in inside if part.geom_type == "LineString"]
+    return np.concatenate([edges_along(mesh, line, domain.spacing) for line in lines])
