@@ -53,7 +53,7 @@ def flatten_stage(
     start = warm_start(mesh, free, options.start)
     vertices = mesh.vertices if start is None else start
     bedding = bedding_terms(mesh, [*pieces, *guides], domain.spacing, options.row_weights)
-    for _ in range(AGAIN if varies else 1):  # the datum below each point depends on where it comes to lie
+    for _ in range(AGAIN if varies else 1):  # the datum at each point depends on its final x
         target = profile_at(datum, bed.positions(vertices)[np.unique(bed.edges), 0])
         level = bed.level(target, options.row_weights.flatten)
         terms = [

@@ -26,7 +26,7 @@ from seiswidgets.io.opening import open_section
 
 FILE, SYNTHETIC, DATASET = "file", "synthetic", "dataset"
 NAMES = {  # the only functions that a session may call, whatever its file says
-    SYNTHETIC: tuple(name for name in synthetic.__all__ if name != "Synthetic"),
+    SYNTHETIC: tuple(name for name in synthetic.__all__ if name.islower()),
     DATASET: ("f3", "teapot"),
 }
 MOST_SAMPLES = 4_000_000  # in a synthetic section
