@@ -35,7 +35,7 @@ def heave_findings(
     for horizon, change in made.items():
         heaves = {cutoff.fault: cutoff.heave * unit for cutoff in cutoffs if cutoff.horizon == horizon}
         heave = sum(heaves.values())
-        if abs(change) < LEAST * unit * domain.section.dx or change * heave <= MOST * heave**2:
+        if not is_open(heave, change, unit * domain.section.dx):
             continue
         fault = max(heaves, key=lambda name: abs(heaves[name]))
         point = where[fault, horizon]
@@ -47,3 +47,8 @@ def heave_findings(
         )
         found.append(Finding("warning", "heave", text, horizon, domain.position(point)))
     return found
+
+
+def is_open(heave: float, change: float, trace: float) -> bool:
+    """Return whether a change of bed length made up for much of a heave; all in metres."""
+    return abs(change) >= LEAST * trace and change * heave > MOST * heave**2

@@ -6,6 +6,7 @@ import numpy as np
 
 from seiswidgets.core.deformation import weighted_percentiles
 from seiswidgets.errors import PickError
+from seiswidgets.geology.bed_lines import bed_extent
 from seiswidgets.geology.cutoffs import cutoffs
 from seiswidgets.geology.picks import IGNORE, Fault, Horizon, Interpretation
 from seiswidgets.geology.plan import UNFAULT
@@ -58,15 +59,13 @@ def measure_restoration(restored: Restoration, interpretation: Interpretation) -
     if not restored.stages:
         return {}
     found: Measures = {}
-    start = Restoration(restored.original)
     for horizon in _used(interpretation.horizons):
-        before, after = (_rock_lines(one, horizon) for one in (start, restored))
-        if before and after:
-            widths, lengths = ([measure(lines) for lines in (before, after)] for measure in (_width, _length))
+        extent = bed_extent(restored, interpretation.faults, horizon)
+        if extent:
             found |= {
-                (EXTENSION, horizon.name): widths[0] / max(widths[1], np.finfo(float).tiny) - 1,
-                (BED_LENGTH, horizon.name): lengths[1],
-                (BED_CHANGE, horizon.name): lengths[1] / lengths[0] - 1,
+                (EXTENSION, horizon.name): extent.width / max(extent.restored_width, np.finfo(float).tiny) - 1,
+                (BED_LENGTH, horizon.name): extent.restored_length,
+                (BED_CHANGE, horizon.name): extent.restored_length / extent.length - 1,
             }
     first, last = restored.stages[0], restored.stages[-1]
     found[AREA_CHANGE, ""] = last.outline.area / first.domain.outline.area - 1
@@ -102,15 +101,3 @@ def depths_along(lines: Sequence[np.ndarray], x: np.ndarray) -> np.ndarray:
 
 def _used(picks: Sequence[Fault] | Sequence[Horizon]) -> list:
     return [pick for pick in picks if pick.use != IGNORE]
-
-
-def _rock_lines(restored: Restoration, horizon: Horizon) -> list[np.ndarray]:
-    return [restored.original.to_rock(line) for line in restored.carried(horizon)]
-
-
-def _width(lines: Sequence[np.ndarray]) -> float:
-    return float(np.ptp(np.concatenate(lines)[:, 0]))
-
-
-def _length(lines: Sequence[np.ndarray]) -> float:
-    return float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in lines))
