@@ -48,7 +48,13 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("Wheel, two fingers, + and -", "zoom at the pointer"),
         ("Drag, in Look; middle button; Space and drag", "pan, the last two in every mode"),
         ("0; double click, in Look", "fit the whole section"),
+        ("V, held", "hides all picks and the deformation map, to see the section alone"),
         ("Tab, Shift+Tab", "to the next control, or the one before"),
+    ),
+    "Room for the panes": (
+        ("Drag the handle below them", "gives them more or less height; on the handle, the arrows do, Home and End"),
+        ("Double click on it, Enter", "goes back to the usual height"),
+        ("Button at the upper right", "fills the window; there, Escape goes back to the page once nothing is selected"),
     ),
     "By keyboard alone": (
         ("Enter", "shows a cursor; at the cursor, puts a vertex; on the last vertex, finishes the line"),

@@ -16,7 +16,6 @@ from seiswidgets.interaction.projection import PaneProjection, side_of
 DRAFT_COLOUR = "#d81b60"
 WIDTH, WIDTH_SELECTED = 2.0, 3.5  # css pixels
 DASH = (6, 4)
-DOT_DISTANCE = 10.0  # least distance in css pixels between two dots of a line
 
 
 def strokes(state: EditorState, projection: PaneProjection) -> list[Stroke]:
@@ -27,7 +26,7 @@ def strokes(state: EditorState, projection: PaneProjection) -> list[Stroke]:
     vertices = projection.vertices([(line.points, line.side) for line in open_lines])
     return [
         *(line.stroke(points) for line, points in zip(lines, shown, strict=True)),
-        *(line.dots(points, projection.view.pixel) for line, points in zip(open_lines, vertices, strict=True)),
+        *(line.dots(points) for line, points in zip(open_lines, vertices, strict=True)),
         *_rectangle(state, projection),
     ]
 
@@ -101,11 +100,9 @@ class _Line:
         label = (self.target.name or "") if self.target.piece == 0 else ""
         return Stroke(points, self.colour, self.width, dash=self.dash, label=label)
 
-    def dots(self, points: np.ndarray, pixel: np.ndarray) -> Stroke:
-        """Dots at the vertices; where these are dense, at some of them, but always at the chosen one."""
-        kept = _thinned(points / pixel, self.chosen)
-        chosen = None if self.chosen is None else kept.index(self.chosen)
-        return Stroke(points[kept], self.colour, self.width, dots=True, chosen=chosen, joined=False)
+    def dots(self, points: np.ndarray) -> Stroke:
+        """Dots at the vertices; the browser shows some of them where they are dense."""
+        return Stroke(points, self.colour, self.width, dots=True, chosen=self.chosen, joined=False)
 
 
 def _lines(state: EditorState) -> Iterator[_Line]:
@@ -131,12 +128,3 @@ def _line(state: EditorState, target: PickSelection, points: Points, colour: str
     is_open = target.name is None or state.mode in (target.kind, LOOK)
     chosen = selection.vertex if selection.piece == target.piece else None
     return _Line(target, points, colour, is_selected=True, is_open=is_open, chosen=chosen)
-
-
-def _thinned(pixels: np.ndarray, chosen: int | None) -> list[int]:
-    """Indices of the first point, of each that lies far enough from the last one kept, and of the chosen one."""
-    kept: list[int] = []
-    for index, pixel in enumerate(pixels):
-        if not kept or index == chosen or not np.hypot(*(pixel - pixels[kept[-1]])) < DOT_DISTANCE:
-            kept.append(index)
-    return kept

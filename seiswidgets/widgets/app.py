@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import traitlets
-from ipywidgets import GridBox, Layout, Tab, VBox, Widget
+from ipywidgets import Box, Layout, Tab, VBox, Widget
 from traitlets import Bool, Bunch, Instance, Tuple, dlink, link, validate
 
 from seiswidgets.geology import validation
@@ -19,6 +19,7 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.weights import Weights
 from seiswidgets.interaction.drawing import Drawing
+from seiswidgets.interaction.gestures import Gesture, Key
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.binding import bind
 from seiswidgets.widgets.closing import WithParts, close_with_parts
@@ -28,6 +29,7 @@ from seiswidgets.widgets.files.start_page import StartPage
 from seiswidgets.widgets.histogram import DeformationHistogram
 from seiswidgets.widgets.ipykernel_compat import keep_order
 from seiswidgets.widgets.key_guard import KeyGuard
+from seiswidgets.widgets.layout import Divider, MaximiseButton
 from seiswidgets.widgets.linked_panes import LinkedPanes, Reading
 from seiswidgets.widgets.live_restoration import LiveRestoration
 from seiswidgets.widgets.names import Names
@@ -41,7 +43,6 @@ from seiswidgets.widgets.timeline import Timeline
 from seiswidgets.widgets.workspace import Workspace
 
 PATIENCE = 10.0  # seconds that a closing app waits for its threads to end
-SIDE_BY_SIDE = "repeat(auto-fit, minmax(min(100%, 400px), 1fr))"
 
 
 class RestorationApp(WithParts, VBox):
@@ -59,8 +60,8 @@ class RestorationApp(WithParts, VBox):
         Picks to start with.
     fixed : (x, z), optional
         A point in the block that stays where it is.
-    height : int
-        Height of each pane, in css pixels.
+    height : int, optional
+        Height of each pane, in css pixels. If left out, the app is as high as most of the browser's window.
     session : path, optional
         A file ``folder/name.json`` to save the work in after each edit, as `Autosave` does; earlier work found there is
         offered. If left out, no file is written until one is chosen in the tab File.
@@ -108,7 +109,7 @@ class RestorationApp(WithParts, VBox):
         interpretation: Interpretation | None = None,
         *,
         fixed: tuple[float, float] | None = None,
-        height: int = 400,
+        height: int | None = None,
         session: str | PathLike | None = None,
         source: SectionSource | None = None,
         **settings: Any,
@@ -124,6 +125,8 @@ class RestorationApp(WithParts, VBox):
         start = [self.start_page, self.session_bar, Names(), KeyGuard()] if self.start_page else None
         super().__init__(start or self._arrange())
         self.add_class("seiswidgets-app")
+        if height is None:
+            self.add_class("seiswidgets-fills")
         keep_order(self)
         self._bind()
         for name, value in settings.items():
@@ -224,7 +227,7 @@ class RestorationApp(WithParts, VBox):
         opened: list[FilePanel | StartPage] = [self.start_page] if self.start_page else []
         return [*opened, self.files] if "files" in vars(self) else opened
 
-    def _make_parts(self, height: int) -> None:
+    def _make_parts(self, height: int | None) -> None:
         workspace = self.workspace
         self.panes = LinkedPanes(workspace.section, height=height, deformation=0.5)
         self.picker = Picker(self.panes.original, workspace=workspace)
@@ -234,6 +237,7 @@ class RestorationApp(WithParts, VBox):
         self.timeline = Timeline()
         self.status = StatusBar(self.restore, self.cancel)
         self.reports = Reports()
+        self.divider, self.maximise_button = Divider(), MaximiseButton()
         self.session_bar = SessionBar(workspace)
         self.restoring = LiveRestoration(self.picker, self.panes, self.status, self.timeline, self.histogram)
         self.tabs = LazyTabs(
@@ -247,14 +251,12 @@ class RestorationApp(WithParts, VBox):
         )
 
     def _arrange(self) -> list[Widget]:
-        below = GridBox(
-            [VBox([self.timeline, self.histogram], layout=Layout(min_width="0")), self.tabs],
-            layout=Layout(grid_template_columns=SIDE_BY_SIDE, grid_gap="8px", width="100%"),
-        )
-        self.picker.toolbar.children = (*self.picker.toolbar.children, self.status.buttons)
+        below = Box([VBox([self.timeline, self.histogram, self.session_bar.news]), self.tabs])
+        below.add_class("seiswidgets-below")
+        self.picker.toolbar.children += (self.status.buttons, self.maximise_button)
+        self.panes.foot.children = (self.picker.click_line, self.panes.readout)
         above = [self.picker.toolbar, self.picker.help, self.status, self.session_bar]
-        beneath = [self.picker.click_line, self.session_bar.news, below]
-        return [*above, self.panes, *beneath, Names(), KeyGuard(self.picker.hotkeys)]
+        return [*above, self.panes, self.divider, below, Names(), KeyGuard(self.picker.hotkeys)]
 
     def _bind(self) -> None:
         workspace, editor = self.workspace, self.picker.editor
@@ -270,6 +272,8 @@ class RestorationApp(WithParts, VBox):
         workspace.observe(self._take_section, "document")
         self.panes.on_reading(self._mark)
         self.picker.on_finding(self._open_finding)
+        for pane in (self.panes.original, self.panes.restored):
+            pane.on_gesture(self._leave_full_window)
 
     @validate("interpretation")
     def _valid_interpretation(self, proposal: Bunch) -> Interpretation:
@@ -293,6 +297,12 @@ class RestorationApp(WithParts, VBox):
             self.workspace.history.forget()  # there is nothing before the first section
             self.picker.refresh()
         self.panes.original.layer.send({"kind": "show"})
+
+    def _leave_full_window(self, gesture: Gesture) -> bool:
+        """Let Escape, where the picker has no use for it, bring the app back from the full window to the page."""
+        if isinstance(gesture, Key) and gesture.name == "Escape":
+            self.maximise_button.leave()
+        return False
 
     def _open_finding(self, finding: Finding) -> None:
         """Show a finding in the status line, and its pick in the list."""

@@ -86,6 +86,7 @@ class Gallery(WithParts, VBox):
         self._aside: tuple[Work, Section, SectionSource | None] | None = None  # on a section of the user's own
         self._is_chosen = bool({"choice", "with_picks"} & settings.keys())
         super().__init__([KeyGuard(), self._make_head()], **settings)
+        self.add_class("seiswidgets-gallery")
         keep_order(self)
         bind_control(self, "choice", self.chooser)
         self.picks_box.observe(self._take_picks_box, "value")
@@ -136,7 +137,7 @@ class Gallery(WithParts, VBox):
         self.notice, self.storage = Question(), BrowserStorage()
         controls = HBox(
             [self.chooser, self.picks_box, self.start_over_button, self.caption],
-            layout=Layout(flex_flow="wrap", grid_gap="0 16px"),
+            layout=Layout(flex_flow="wrap", align_items="center", grid_gap="0 16px"),
         )
         return VBox([controls, self.notice, self.warning, self.storage])
 

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from ipywidgets import HTML, GridBox, Layout, VBox, jslink
+from ipywidgets import HTML, GridBox, HBox, Layout, VBox, jslink
 from traitlets import Bool, Bunch, Float, Instance, List, observe, validate
 
 from seiswidgets.core.deformation import USUAL_SPAN
@@ -32,7 +32,7 @@ READOUT = (
     '<div style="font-variant-numeric: tabular-nums; min-height: 1.4em; line-height: 1.4; white-space: nowrap; '
     'overflow: hidden; text-overflow: ellipsis">{}</div>'
 )
-HEADING = '<div style="font-weight: 600; padding-left: 64px">{}</div>'
+HEADING = '<div style="font-weight: 600; padding-left: 64px; line-height: 20px">{}</div>'
 BEYOND = "rock beyond the window: 0 shows all"
 BRUSHED_ALONE = 0.6  # opacity of what is brushed while the map itself is not shown
 SHARED = ("colours", "clip", "gain", "polarity", "height")
@@ -82,8 +82,8 @@ class LinkedPanes(WithParts, VBox):
     Parameters
     ----------
     restoration : Restoration or Section
-    height : int
-        Height of each pane in css pixels.
+    height : int or None
+        Height of each pane in css pixels; None for that of the box around the panes.
     **settings
         Initial values of the attributes.
 
@@ -103,8 +103,8 @@ class LinkedPanes(WithParts, VBox):
         The colours of the area ratio run from 1 / span to span.
     brush : list
         Smallest and largest area ratio to highlight, or empty; highlighted even if the opacity is 0.
-    readout : HTML
-        Line with the values at the pointer.
+    readout, foot : HTML, HBox
+        Line with the values at the pointer, and the box that holds it, below the panes.
 
     Raises
     ------
@@ -119,7 +119,7 @@ class LinkedPanes(WithParts, VBox):
     span = Float(USUAL_SPAN)
     brush: List[float] = List()
 
-    def __init__(self, restoration: Restoration | Section, *, height: int = 420, **settings: Any):
+    def __init__(self, restoration: Restoration | Section, *, height: int | None = 420, **settings: Any):
         self.check_settings(settings)
         if isinstance(restoration, Section):
             restoration = Restoration(restoration)
@@ -135,11 +135,14 @@ class LinkedPanes(WithParts, VBox):
         self._links: list[object] = []
         self.restored.projection, self.restored.line_projection = self.projection, self.line_projection
         self.readout = HTML(READOUT.format(""))
+        self.foot = HBox([self.readout])
         self._link_panes()
         headed = (PRESENT_DAY, self.original), (RESTORED, self.restored)
-        columns = [VBox([HTML(HEADING.format(title)), pane]) for title, pane in headed]
-        panes = GridBox(columns, layout=Layout(grid_template_columns="minmax(0, 1fr) minmax(0, 1fr)", grid_gap="8px"))
-        super().__init__([KeyGuard(), panes, self.readout], restoration=restoration, **settings)
+        columns = [VBox([HTML(HEADING.format(title), layout=Layout(margin="0")), pane]) for title, pane in headed]
+        panes = GridBox(columns)
+        super().__init__([KeyGuard(), panes, self.foot], restoration=restoration, **settings)
+        for box, name in ((self, "panes"), (panes, "pair"), (self.foot, "foot")):
+            box.add_class(f"seiswidgets-{name}")
 
     def _link_panes(self) -> None:
         for pane, other in ((self.original, self.restored), (self.restored, self.original)):

@@ -10,7 +10,6 @@ class Names(anywidget.AnyWidget):
     """A hidden child of a box: names each control in that box after its label or its tooltip."""
 
     _esm = asset("names.js")
-    _css = asset("names.css")
 
     def __init__(self) -> None:
         super().__init__(layout=Layout(display="none"))

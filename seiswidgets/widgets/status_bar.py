@@ -61,7 +61,7 @@ class StatusBar(Box):
         button.on_click(lambda _: restore())
         self._cancel.on_click(lambda _: cancel())
         self.buttons = HBox([button, live])
-        super().__init__([self.line, self.progress], layout=Layout(align_items="center", min_height="42px"))
+        super().__init__([self.line, self.progress], layout=Layout(align_items="center", min_height="36px"))
         bind_control(self, "live", live)
 
     def show_progress(self, progress: Progress | None) -> None:

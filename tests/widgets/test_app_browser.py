@@ -183,7 +183,9 @@ def test_cut_offs_snapping_following_and_holding(open_app):
     fault = screen.points("editor.drawing.picks[0].pieces[0]")
     marks = screen.points("[mark.inside for mark in editor.cutoffs()]")
     assert len(marks) == 2
-    expect(screen.plots.first.locator(".cutoff .number")).to_have_text(["1", "1"])
+    expect(screen.plots.first.locator(".cutoff")).to_have_count(2)
+    screen.page.mouse.move(*screen.pixels(marks[:1])[0])
+    expect(screen.plots.first.locator(".grown .number")).to_have_text("1")
     screen.button("Horizon").click()
     aim = fault[1:3].mean(axis=0)
     screen.drag(marks[0], aim + [60, 0])

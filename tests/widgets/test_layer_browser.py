@@ -70,6 +70,7 @@ def test_lines_labels_and_marks_lie_where_they_belong(bare_layer):
     assert (width, colour, dash) == ("3", "#00ff00", "5 2")
     np.testing.assert_allclose(pixels(layer.attributes(".dots", "d")[0][0]), expected, atol=0.01)
     assert layer.attributes(".stroke .halo", "stroke-width")[0] == ["6"]
+    assert pixels(layer.attributes(".thin", "d")[0][0]).tolist() == [[280, 200], [320, 200]]  # 20 css pixels about "12"
     assert layer.attributes(".chosen", "cx", "cy") == [["120", "160"]]
     names = layer.page.locator(".seiswidgets-layer .name")
     assert names.all_text_contents() == [IMG, "at the corner", "through"]
@@ -82,20 +83,44 @@ def test_lines_labels_and_marks_lie_where_they_belong(bare_layer):
     places = layer.attributes(".mark", "class", "transform")
     assert places[0] == ["mark cutoff", "translate(300 200)"]
     assert places[1:] == [["mark held", "translate(60 300)"], ["mark cursor", "translate(540 300)"]]
+    assert layer.attributes(".cutoff .disc", "r") == [["3.5"]]
+    layer.move(309, 203)
+    assert layer.attributes(".grown .disc", "cx", "cy", "r") == [["300", "200", "8"]]
     assert layer.page.locator(".seiswidgets-layer .number").all_text_contents() == ["12"]
+    layer.move(121, 158)
+    assert layer.attributes(".grown .disc", "cx", "cy", "r") == [["120", "160", "5.5"]]
+    layer.move(90, 30)
+    assert layer.attributes(".grown *", "r") == []
 
     layer.set(window=[0, 150, 0, 50])
     np.testing.assert_allclose(pixels(layer.attributes(".line", "d")[0][0]), np.multiply(expected, 2), atol=0.01)
 
     colours = ["#f0e442", "#0072b2", "yellow", "none"]
     named = [Stroke([[30, 20], [60, 40]], colour=colour, label=colour) for colour in colours]
-    numbered = [Mark((50, 50), "cutoff", colour, colour=colour) for colour in colours]
-    layer.set(strokes=states(*named), marks=states(*numbered))
+    layer.set(strokes=states(*named), marks=states(Mark((75, 25), "cutoff", "7", colour="#f0e442")))
+    layer.move(300, 200)
     pale = layer.page.locator(".seiswidgets-layer .pale")
-    assert pale.all_text_contents() == ["#f0e442", "yellow"] * 2
+    assert pale.all_text_contents() == ["#f0e442", "yellow", "7"]
 
     layer.set(strokes=[], marks=[])
-    assert layer.attributes(".stroke, .mark, .name", "class") == []
+    assert layer.attributes(".stroke, .mark, .name, .grown *", "class") == []
+
+
+def test_v_hides_what_is_drawn_while_it_is_held(bare_layer):
+    line, mark = Stroke([[30, 20], [60, 40]], dots=True, label="F1"), Mark((150, 50), "cutoff", "1")
+    layer = bare_layer(strokes=states(line), marks=states(mark))
+    shown = layer.page.locator(".seiswidgets-layer :is(.line, .dots, .name, .disc):visible")
+    layer.page.locator(".plot").focus()
+    assert shown.count() == 4
+    for leave in (lambda: layer.page.keyboard.up("v"), lambda: layer.page.evaluate("document.activeElement.blur()")):
+        layer.page.locator(".plot").focus()
+        layer.page.keyboard.down("v")
+        layer.page.evaluate("frame()")
+        assert shown.count() == 0
+        leave()
+        layer.page.evaluate("frame()")
+        assert shown.count() == 4
+    assert layer.sent("key") == []
 
 
 def test_the_mesh_is_drawn_where_it_is_in_sight(bare_layer):

@@ -7,7 +7,7 @@ import { keepKeys } from "./shared/keep_keys.js";
 import { append } from "./shared/svg.js";
 
 const HELP = "Arrow keys brush a bar, with Shift several; Escape clears.";
-const SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio";
+const SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio.";
 const PAUSE = 50; // ms between two messages
 const CHANGES = "change:bars change:summary change:brushed change:brush change:mark change:log_shares";
 
@@ -60,7 +60,6 @@ function createElements(el) {
   el.classList.add("seiswidgets-histogram");
   const head = appendDiv(el, "head");
   const summary = appendDiv(head, "summary");
-  summary.title = SUMMARY_TOOLTIP;
   const brushed = appendDiv(head, "brushed");
   brushed.setAttribute("aria-live", "polite");
   const log = document.createElement("button");
@@ -108,6 +107,7 @@ function render({ model, el }) {
   function draw() {
     const bars = barsOf(model);
     summary.textContent = model.get("summary");
+    summary.title = `${model.get("summary")}. ${SUMMARY_TOOLTIP}`;
     brushed.textContent = model.get("brushed");
     log.setAttribute("aria-pressed", String(model.get("log_shares")));
     el.classList.toggle("empty", !bars);

@@ -5,7 +5,7 @@ import { keepTraitsLocal } from "./shared/local_traits.js";
 
 /** @type {import("@anywidget/types").Initialize<import("./picture/types.js").PictureTraits>} */
 function initialize({ model }) {
-  keepTraitsLocal(model, ["picture", "revision"]);
+  keepTraitsLocal(model, ["picture", "revision", "bare"]);
   const picture = new Picture(model);
   /** @type {[string, (...args: any[]) => void][]} */
   const handlers = [

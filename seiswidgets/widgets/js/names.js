@@ -30,6 +30,8 @@ function dropEmptyTooltips(box) {
 /** @param {HTMLElement} box */
 function nameControls(box) {
   dropEmptyTooltips(box);
+  for (const panel of /** @type {NodeListOf<HTMLElement>} */ (box.querySelectorAll(".widget-tab-contents")))
+    panel.tabIndex = 0; // so that the arrows can scroll it
   for (const control of /** @type {NodeListOf<Control>} */ (box.querySelectorAll(CONTROLS))) {
     const name = accessibleName(control);
     const isLabelled = [...(control.labels ?? [])].some((label) => label.textContent?.trim());

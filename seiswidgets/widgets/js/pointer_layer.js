@@ -76,7 +76,7 @@ export function mount(model, el, throttles) {
     movePointer: (position) => view.movePointer(position),
     scheduleRest: () => view.scheduleRest(),
   };
-  const keyboard = new Keyboard(plot, model, actions.send);
+  const keyboard = new Keyboard(plot, model, actions.send, (isBare) => view.live.showBare(isBare));
   keyboard.listenWith(listen);
   new GestureRecogniser(plot, view.plotArea, keyboard, throttles, actions).listenWith(listen);
   const stopObserving = observe(model, view, throttles);

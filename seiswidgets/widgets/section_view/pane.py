@@ -67,8 +67,8 @@ class SectionPane(WithParts, VBox):
         A map in colours over the section.
     overlay_opacity, mesh_opacity : float
         0 to 1.
-    height : int
-        Height of the pane with its axes, in css pixels; it is as wide as the page.
+    height : int or None
+        Height of the pane with its axes, in css pixels; None for that of the box around it. It is as wide as the page.
     picture : LivePicture, optional
         Picture that the browser draws instead of the section; colours and overlays are then its own.
     restored : bool
@@ -115,7 +115,7 @@ class SectionPane(WithParts, VBox):
     overlay = Instance(Overlay, allow_none=True)
     overlay_opacity = Float(0.6)
     mesh_opacity = Float(0.6)
-    height = Int(480)
+    height = Int(480, allow_none=True)
     message = Unicode()
     note = Unicode()
 
@@ -145,7 +145,8 @@ class SectionPane(WithParts, VBox):
         self._grid = GridBox([*canvases, self.layer, self.badge], layout=_grid_layout())
         self.message_line = HTML(layout=Layout(display="none"))
         super().__init__([self._grid, self.message_line], section=section, view=Viewport(section), **settings)
-        dlink((self, "height"), (self._grid.layout, "height"), "{}px".format)
+        self.add_class("seiswidgets-pane")
+        dlink((self, "height"), (self._grid.layout, "height"), lambda height: height and f"{height}px")
         self.view = self.view if exaggeration is None else self.view.exaggerated(exaggeration)
         dlink((self, "mesh_opacity"), (self.layer, "mesh_opacity"))
         self.layer.on_pointer_message(self._receive)

@@ -25,7 +25,7 @@ def checked_setting(name: str, value: Any) -> Any:
         raise SettingError(f"clip must be a percentile, above 0 and at most 100, but is {value:g}")
     elif name in ("gain", "limit") and not (value is None or 0 < value < float("inf")):
         raise SettingError(f"{name} must be a finite number above 0, but is {value:g}")
-    elif name == "height" and value < LEAST_HEIGHT:
+    elif name == "height" and value is not None and value < LEAST_HEIGHT:
         raise SettingError(f"height must be at least {LEAST_HEIGHT} css pixels, but is {value}")
     elif name.endswith("opacity") and not 0 <= value <= 1:
         raise SettingError(f"{name} must be from 0 to 1, but is {value:g}")

@@ -801,6 +801,7 @@ function withPalette(state) {
 }
 
 // pointer_layer/keyboard.js
+var BARE = "v";
 function modifiers(event) {
   const pressed = { ctrl: event.ctrlKey, meta: event.metaKey, shift: event.shiftKey, alt: event.altKey };
   return Object.entries(pressed).flatMap(([name, isPressed]) => isPressed ? [name] : []);
@@ -810,11 +811,13 @@ var Keyboard = class {
    * @param {{ classList: Pick<DOMTokenList, "toggle" | "remove"> }} plot
    * @param {Pick<import("./types.js").Model, "get">} model
    * @param {Send} send
+   * @param {(isBare: boolean) => void} showBare
    */
-  constructor(plot, model, send) {
+  constructor(plot, model, send, showBare) {
     this.plot = plot;
     this.model = model;
     this.send = send;
+    this.showBare = showBare;
     this.isSpaceDown = false;
     this.hasPanned = false;
   }
@@ -825,6 +828,7 @@ var Keyboard = class {
     listen("blur", () => {
       this.plot.classList.remove("by-pointer");
       this.setSpace(false);
+      this.showBare(false);
     });
   }
   /** Start a drag; true if it pans, since Space is held. */
@@ -850,6 +854,11 @@ var Keyboard = class {
       this.send("menu", event);
       return;
     }
+    if (event.key.toLowerCase() === BARE && !withCtrl && !event.altKey) {
+      event.preventDefault();
+      this.showBare(true);
+      return;
+    }
     const isSpace = event.key === " " && !withCtrl;
     if (!isSpace && !this.isHotkey((withCtrl ? "Ctrl+" : "") + event.key)) return;
     event.preventDefault();
@@ -861,6 +870,7 @@ var Keyboard = class {
   }
   /** @param {KeyboardEvent} event */
   release(event) {
+    if (event.key.toLowerCase() === BARE) this.showBare(false);
     if (event.key !== " " || !this.isSpaceDown) return;
     event.preventDefault();
     this.setSpace(false);
@@ -1198,6 +1208,28 @@ function drawRubberBand(group, rubber, pointer, plotArea) {
   if (!pointer || !rubber.length) return;
   const d = pathData([...rubber.map((point) => plotArea.toPixels(...point)), pointer]);
   for (const className of ["halo", "rubber"]) append(group, "path", className, { d });
+}
+
+// pointer_layer/handles.js
+var REACH = 12;
+function nearestHandle(handles, pointer) {
+  let [nearest, least] = [
+    /** @type {Handle | undefined} */
+    void 0,
+    REACH
+  ];
+  for (const handle of pointer ? handles : []) {
+    const distance2 = Math.hypot(handle.x - (pointer?.x ?? 0), handle.y - (pointer?.y ?? 0));
+    if (distance2 <= least) [nearest, least] = [handle, distance2];
+  }
+  return nearest;
+}
+function drawGrown(group, handle) {
+  group.replaceChildren();
+  if (!handle) return;
+  const { x, y, colour, text } = handle;
+  const disc = append(group, "circle", "disc", { cx: x, cy: y, r: text ? 8 : 5.5, fill: colour });
+  if (text) togglePale(appendText(group, "number", { x, y: y + 3.5 }, text), disc, colour);
 }
 
 // picture/painter.js
@@ -1550,6 +1582,7 @@ var PARTS_BY_TRAIT = {
   picture: ["picture", "mesh"],
   colours: ["picture"],
   deformation: ["picture"],
+  bare: ["bare", "picture"],
   changing: []
   // draws what was held back
 };
@@ -1572,6 +1605,7 @@ var LivePane = class {
     this.section = new Uint32Array(0);
     this.heldAt = -Infinity;
     this.isStopped = false;
+    this.isBareAlone = false;
     this.stop = () => {
       this.isStopped = true;
     };
@@ -1612,6 +1646,16 @@ var LivePane = class {
   get isHeld() {
     return Boolean(this.model?.get("changing")) && performance.now() - this.heldAt < LONGEST_HOLD;
   }
+  /** True while nothing but the section is to be seen, in all panes that share the picture. */
+  get isBare() {
+    return Boolean(this.model ? this.model.get("bare") : this.isBareAlone);
+  }
+  /** @param {boolean} isBare */
+  showBare(isBare) {
+    this.model?.set("bare", isBare);
+    this.isBareAlone = isBare;
+    this.requestDraw(["bare"]);
+  }
   /** @param {import("./plot_area.js").PlotArea} plotArea */
   drawPicture({ width, height, model }) {
     const { picture, canvas } = this;
@@ -1625,7 +1669,8 @@ var LivePane = class {
     const start2 = performance.now();
     const rows = this.rowsAtATime(picture.time, start2);
     const drawn = { width: size.width, height: Math.ceil(size.height / rows) };
-    this.drawScene(pixels, drawn, picture.scene(this.isRestored, model.get("window")));
+    const scene = picture.scene(this.isRestored, model.get("window"));
+    this.drawScene(pixels, drawn, this.isBare ? withoutRatios(scene) : scene);
     if (rows > 1) repeatRows(pixels, size, rows);
     canvas.getContext("2d")?.putImageData(this.pixels, 0, 0);
     this.last = { time: picture.time, start: start2, took: (performance.now() - start2) * rows };
@@ -1715,6 +1760,9 @@ var LivePane = class {
     return marks.flatMap((mark) => this.places([[mark.x, mark.z]]).map((at) => at && { ...mark, x: at[0], z: at[1] })).filter((mark) => mark !== null);
   }
 };
+function withoutRatios(scene) {
+  return { ...scene, deformation: { ...scene.deformation, opacity: 0 } };
+}
 function repeatRows(pixels, { width, height }, rows) {
   for (let row = height - 1; row > 0; row--) {
     const from = Math.floor(row / rows) * width;
@@ -1728,8 +1776,7 @@ var FLAG = 14;
 var CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 var DRAW = {
   cutoff(group, mark) {
-    const disc = append(group, "circle", "disc", { r: 8, fill: mark.colour });
-    togglePale(appendText(group, "number", { y: 3.5 }, mark.text), disc, mark.colour);
+    append(group, "circle", "disc", { r: 3.5, fill: mark.colour });
   },
   held(group, mark) {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });
@@ -1875,7 +1922,42 @@ var PlotArea = class {
   }
 };
 
+// pointer_layer/near.js
+function splitNear(line, centres2, radius) {
+  if (!centres2.length) return { near: [], far: line };
+  const parts = { near: [], far: [] };
+  for (let i = 1; i < line.length; i++) {
+    const [from, to] = [line[i - 1], line[i]];
+    if (from && to) addSegment(parts, from, to, centres2, radius);
+    else for (const part of [parts.near, parts.far]) part.push(null);
+  }
+  return parts;
+}
+function addSegment({ near, far }, from, to, centres2, radius) {
+  const at = (share) => ({
+    x: from.x + share * (to.x - from.x),
+    y: from.y + share * (to.y - from.y)
+  });
+  const shares = [0, ...centres2.flatMap((centre) => crossings(from, to, centre, radius)), 1].sort((a, b) => a - b);
+  for (let i = 1; i < shares.length; i++) {
+    const middle = at((shares[i - 1] + shares[i]) / 2);
+    const isNear = centres2.some(({ x, y }) => Math.hypot(x - middle.x, y - middle.y) < radius);
+    const [part, other] = isNear ? [near, far] : [far, near];
+    if (!part.at(-1)) part.push(at(shares[i - 1]));
+    part.push(at(shares[i]));
+    if (other.at(-1)) other.push(null);
+  }
+}
+function crossings(from, to, centre, radius) {
+  const [dx, dy, x, y] = [to.x - from.x, to.y - from.y, from.x - centre.x, from.y - centre.y];
+  const [a, b, c] = [dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - radius * radius];
+  const root = Math.sqrt(b * b - a * c);
+  return [(-b - root) / a, (-b + root) / a].filter((share) => share > 0 && share < 1);
+}
+
 // pointer_layer/strokes.js
+var NEAR = 20;
+var DOT = { radius: 2, halo: 1, distance: 10 };
 var HALO = 1.5;
 var LABEL_MARGIN = 4;
 var LABEL_OFFSET = 9;
@@ -1891,30 +1973,49 @@ function decodeStroke({ origin, points, ...look }) {
   });
   return { ...look, points: decoded };
 }
-function drawStrokes(group, strokes, plotArea) {
+function drawStrokes(group, strokes, plotArea, cutoffs) {
   group.replaceChildren();
+  const handles = [];
   const lines = append(group, "g", "lines");
   const labels = append(group, "g", "labels");
   for (const stroke of strokes) {
     const pixels = stroke.points.map((point) => point && plotArea.toPixels(...point));
-    drawStroke(append(lines, "g", "stroke"), stroke, pixels);
+    const element2 = append(lines, "g", "stroke");
+    if (stroke.joined) drawLine(element2, stroke, pixels, cutoffs);
+    if (stroke.dots) handles.push(...drawDots(element2, stroke, pixels));
     if (stroke.label) drawLabel(labels, stroke, pixels, plotArea);
   }
+  return handles;
 }
-function drawStroke(group, stroke, pixels) {
-  const { colour, width } = stroke;
-  const line = { d: stroke.joined ? pathData(pixels) : "", "stroke-dasharray": stroke.dash.join(" ") };
-  const dots = { d: stroke.dots ? dotData(pixels) : "" };
-  const radius = width + 1;
-  append(group, "path", "halo", { ...line, "stroke-width": width + 2 * HALO });
-  append(group, "path", "halo", { ...dots, "stroke-width": 2 * (radius + HALO) });
-  append(group, "path", "line", { ...line, "stroke-width": width, stroke: colour });
-  append(group, "path", "dots", { ...dots, "stroke-width": 2 * radius, stroke: colour });
-  const chosen = pixels[stroke.chosen ?? -1];
-  if (chosen) append(group, "circle", "chosen", { cx: chosen.x, cy: chosen.y, r: radius + 3, stroke: colour });
+function drawLine(group, { colour, width, dash }, pixels, cutoffs) {
+  const { near, far } = splitNear(pixels, cutoffs, NEAR);
+  const thick = { d: pathData(far), "stroke-dasharray": dash.join(" ") };
+  append(group, "path", "halo", { ...thick, "stroke-width": width + 2 * HALO });
+  append(group, "path", "line", { ...thick, "stroke-width": width, stroke: colour });
+  const thin = pathData(near);
+  if (thin) append(group, "path", "thin", { d: thin, stroke: colour });
+}
+function drawDots(group, { colour, chosen }, pixels) {
+  const shown = thinned(pixels, chosen ?? -1, DOT.distance);
+  const d = dotData(shown);
+  append(group, "path", "halo", { d, "stroke-width": 2 * (DOT.radius + DOT.halo) });
+  append(group, "path", "dots", { d, "stroke-width": 2 * DOT.radius, stroke: colour });
+  const selected = pixels[chosen ?? -1];
+  if (selected)
+    append(group, "circle", "chosen", { cx: selected.x, cy: selected.y, r: DOT.radius + 3, stroke: colour });
+  return shown.map((pixel) => ({ ...pixel, colour }));
+}
+function thinned(pixels, chosen, distance2) {
+  const kept = [];
+  pixels.forEach((pixel, index) => {
+    const last = kept.at(-1);
+    const isFar = pixel && last ? Math.hypot(pixel.x - last.x, pixel.y - last.y) >= distance2 : true;
+    if (pixel && (isFar || index === chosen)) kept.push(pixel);
+  });
+  return kept;
 }
 function dotData(pixels) {
-  return pixels.map((pixel) => pixel && `M${pixel.x.toFixed(2)},${pixel.y.toFixed(2)}h0`).join("");
+  return pixels.map(({ x, y }) => `M${x.toFixed(2)},${y.toFixed(2)}h0`).join("");
 }
 function drawLabel(group, stroke, pixels, plotArea) {
   const start2 = firstVisible(pixels, plotArea);
@@ -1966,14 +2067,15 @@ function entryPoint(from, to, { width, height }) {
 
 // pointer_layer/view.js
 var REST = 250;
-var ALL_PARTS = ["axes", "note", "picture", "mesh", "strokes", "marks", "cursors"];
+var ALL_PARTS = ["axes", "note", "picture", "bare", "mesh", "strokes", "marks", "cursors"];
 var PARTS_BY_TRAIT2 = {
   axes: ["axes", "note"],
   label: ["axes"],
   size: ["axes"],
   window: ["picture", "mesh", "strokes", "marks", "cursors"],
   strokes: ["strokes"],
-  marks: ["marks"],
+  marks: ["strokes", "marks"],
+  // lines are thin near cut-offs
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
   rubber: ["cursors"],
@@ -1985,13 +2087,13 @@ function createElements(el) {
   const axes = append(plot, "g", "axes");
   const inside = append(plot, "svg", "inside", { width: "100%", height: "100%" });
   const mesh = append(inside, "path", "mesh");
-  const [strokes, marks, linked, own, band] = ["strokes", "marks", "linked", "own", "band"].map(
+  const [strokes, marks, grown, linked, own, band] = ["strokes", "marks", "grown", "linked", "own", "band"].map(
     (name) => append(inside, "g", name)
   );
   const note = document.createElement("div");
   note.className = "note";
   el.append(note);
-  return { plot, axes, mesh, strokes, marks, linked, own, band, note };
+  return { plot, axes, mesh, strokes, marks, grown, linked, own, band, note };
 }
 var LayerView = class {
   /**
@@ -2005,6 +2107,7 @@ var LayerView = class {
     this.plotArea = new PlotArea(model, this.elements.plot);
     this.pointer = null;
     this.maps = null;
+    this.handles = [];
     this.live = new LivePane(model, el, (parts) => this.requestDraw(parts));
     this.outdated = /* @__PURE__ */ new Set();
     this.isScheduled = false;
@@ -2041,14 +2144,22 @@ var LayerView = class {
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
     if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
-    if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
+    if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
+    const marks = live.placedMarks(model.get("marks"));
+    if (outdated.has("strokes")) this.drawLines(marks);
     if (outdated.has("marks"))
-      drawMarks(
-        elements.marks,
-        live.placedMarks(model.get("marks")),
-        plotArea,
-        (index) => model.send({ kind: "finding", key: String(index) })
-      );
+      drawMarks(elements.marks, marks, plotArea, (index) => model.send({ kind: "finding", key: String(index) }));
+  }
+  /** @param {import("./types.js").Mark[]} marks */
+  drawLines(marks) {
+    const cutoffs = marks.filter(({ kind }) => kind === "cutoff").map(({ x, z, colour, text }) => ({ ...this.plotArea.toPixels(x, z), colour, text }));
+    const { strokes } = this.elements;
+    this.handles = [...drawStrokes(strokes, this.live.placedStrokes(this.strokes), this.plotArea, cutoffs), ...cutoffs];
+    this.growHandle();
+  }
+  /** Draw the handle at the pointer large. */
+  growHandle() {
+    drawGrown(this.elements.grown, nearestHandle(this.handles, this.pointer));
   }
   get strokes() {
     return this.model.get("strokes").map(decodeStroke);
@@ -2066,6 +2177,7 @@ var LayerView = class {
   drawCursors() {
     const { x, z } = this.model.get("linked");
     const linked = x === void 0 || z === void 0 ? null : this.plotArea.toPixels(x, z);
+    this.growHandle();
     drawCross(this.elements.own, this.pointer, this.plotArea);
     drawCross(this.elements.linked, linked, this.plotArea);
     drawRubberBand(
@@ -2184,7 +2296,7 @@ function mount(model, el, throttles) {
     movePointer: (position) => view.movePointer(position),
     scheduleRest: () => view.scheduleRest()
   };
-  const keyboard = new Keyboard(plot, model, actions.send);
+  const keyboard = new Keyboard(plot, model, actions.send, (isBare) => view.live.showBare(isBare));
   keyboard.listenWith(listen);
   new GestureRecogniser(plot, view.plotArea, keyboard, throttles, actions).listenWith(listen);
   const stopObserving = observe(model, view, throttles);
@@ -2950,7 +3062,7 @@ function drawMark(group, bars, scale, bar) {
 
 // histogram.js
 var HELP = "Arrow keys brush a bar, with Shift several; Escape clears.";
-var SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio";
+var SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio.";
 var PAUSE2 = 50;
 var CHANGES = "change:bars change:summary change:brushed change:brush change:mark change:log_shares";
 function appendDiv(parent, className) {
@@ -2977,7 +3089,6 @@ function createElements2(el) {
   el.classList.add("seiswidgets-histogram");
   const head = appendDiv(el, "head");
   const summary = appendDiv(head, "summary");
-  summary.title = SUMMARY_TOOLTIP;
   const brushed = appendDiv(head, "brushed");
   brushed.setAttribute("aria-live", "polite");
   const log = document.createElement("button");
@@ -3015,6 +3126,7 @@ function render({ model, el }) {
   function draw() {
     const bars = barsOf2(model);
     summary.textContent = model.get("summary");
+    summary.title = `${model.get("summary")}. ${SUMMARY_TOOLTIP}`;
     brushed.textContent = model.get("brushed");
     log.setAttribute("aria-pressed", String(model.get("log_shares")));
     el.classList.toggle("empty", !bars);

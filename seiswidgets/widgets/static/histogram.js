@@ -279,7 +279,7 @@ function keepKeys(findBox) {
 
 // histogram.js
 var HELP = "Arrow keys brush a bar, with Shift several; Escape clears.";
-var SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio";
+var SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio.";
 var PAUSE = 50;
 var CHANGES = "change:bars change:summary change:brushed change:brush change:mark change:log_shares";
 function appendDiv(parent, className) {
@@ -306,7 +306,6 @@ function createElements(el) {
   el.classList.add("seiswidgets-histogram");
   const head = appendDiv(el, "head");
   const summary = appendDiv(head, "summary");
-  summary.title = SUMMARY_TOOLTIP;
   const brushed = appendDiv(head, "brushed");
   brushed.setAttribute("aria-live", "polite");
   const log = document.createElement("button");
@@ -344,6 +343,7 @@ function render({ model, el }) {
   function draw() {
     const bars = barsOf(model);
     summary.textContent = model.get("summary");
+    summary.title = `${model.get("summary")}. ${SUMMARY_TOOLTIP}`;
     brushed.textContent = model.get("brushed");
     log.setAttribute("aria-pressed", String(model.get("log_shares")));
     el.classList.toggle("empty", !bars);

@@ -746,7 +746,7 @@ function keepTraitsLocal(model, names) {
 
 // live_picture.js
 function initialize({ model }) {
-  keepTraitsLocal(model, ["picture", "revision"]);
+  keepTraitsLocal(model, ["picture", "revision", "bare"]);
   const picture = new Picture(model);
   const handlers = [
     ["change:texture", () => picture.loader.start()],

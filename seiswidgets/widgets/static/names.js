@@ -16,6 +16,12 @@ function dropEmptyTooltips(box) {
 function nameControls(box) {
   dropEmptyTooltips(box);
   for (
+    const panel of
+    /** @type {NodeListOf<HTMLElement>} */
+    box.querySelectorAll(".widget-tab-contents")
+  )
+    panel.tabIndex = 0;
+  for (
     const control of
     /** @type {NodeListOf<Control>} */
     box.querySelectorAll(CONTROLS)

@@ -1,6 +1,7 @@
 /* Bundled from seiswidgets/widgets/js by `make js`: edit the sources, not this file. */
 
 // pointer_layer/keyboard.js
+var BARE = "v";
 function modifiers(event) {
   const pressed = { ctrl: event.ctrlKey, meta: event.metaKey, shift: event.shiftKey, alt: event.altKey };
   return Object.entries(pressed).flatMap(([name, isPressed]) => isPressed ? [name] : []);
@@ -10,11 +11,13 @@ var Keyboard = class {
    * @param {{ classList: Pick<DOMTokenList, "toggle" | "remove"> }} plot
    * @param {Pick<import("./types.js").Model, "get">} model
    * @param {Send} send
+   * @param {(isBare: boolean) => void} showBare
    */
-  constructor(plot, model, send) {
+  constructor(plot, model, send, showBare) {
     this.plot = plot;
     this.model = model;
     this.send = send;
+    this.showBare = showBare;
     this.isSpaceDown = false;
     this.hasPanned = false;
   }
@@ -25,6 +28,7 @@ var Keyboard = class {
     listen("blur", () => {
       this.plot.classList.remove("by-pointer");
       this.setSpace(false);
+      this.showBare(false);
     });
   }
   /** Start a drag; true if it pans, since Space is held. */
@@ -50,6 +54,11 @@ var Keyboard = class {
       this.send("menu", event);
       return;
     }
+    if (event.key.toLowerCase() === BARE && !withCtrl && !event.altKey) {
+      event.preventDefault();
+      this.showBare(true);
+      return;
+    }
     const isSpace = event.key === " " && !withCtrl;
     if (!isSpace && !this.isHotkey((withCtrl ? "Ctrl+" : "") + event.key)) return;
     event.preventDefault();
@@ -61,6 +70,7 @@ var Keyboard = class {
   }
   /** @param {KeyboardEvent} event */
   release(event) {
+    if (event.key.toLowerCase() === BARE) this.showBare(false);
     if (event.key !== " " || !this.isSpaceDown) return;
     event.preventDefault();
     this.setSpace(false);
@@ -752,6 +762,28 @@ function drawRubberBand(group, rubber, pointer, plotArea) {
   for (const className of ["halo", "rubber"]) append(group, "path", className, { d });
 }
 
+// pointer_layer/handles.js
+var REACH = 12;
+function nearestHandle(handles, pointer) {
+  let [nearest, least] = [
+    /** @type {Handle | undefined} */
+    void 0,
+    REACH
+  ];
+  for (const handle of pointer ? handles : []) {
+    const distance2 = Math.hypot(handle.x - (pointer?.x ?? 0), handle.y - (pointer?.y ?? 0));
+    if (distance2 <= least) [nearest, least] = [handle, distance2];
+  }
+  return nearest;
+}
+function drawGrown(group, handle) {
+  group.replaceChildren();
+  if (!handle) return;
+  const { x, y, colour, text } = handle;
+  const disc = append(group, "circle", "disc", { cx: x, cy: y, r: text ? 8 : 5.5, fill: colour });
+  if (text) togglePale(appendText(group, "number", { x, y: y + 3.5 }, text), disc, colour);
+}
+
 // picture/texture.js
 var NO_DATA = -32768;
 
@@ -1105,6 +1137,7 @@ var PARTS_BY_TRAIT = {
   picture: ["picture", "mesh"],
   colours: ["picture"],
   deformation: ["picture"],
+  bare: ["bare", "picture"],
   changing: []
   // draws what was held back
 };
@@ -1127,6 +1160,7 @@ var LivePane = class {
     this.section = new Uint32Array(0);
     this.heldAt = -Infinity;
     this.isStopped = false;
+    this.isBareAlone = false;
     this.stop = () => {
       this.isStopped = true;
     };
@@ -1167,6 +1201,16 @@ var LivePane = class {
   get isHeld() {
     return Boolean(this.model?.get("changing")) && performance.now() - this.heldAt < LONGEST_HOLD;
   }
+  /** True while nothing but the section is to be seen, in all panes that share the picture. */
+  get isBare() {
+    return Boolean(this.model ? this.model.get("bare") : this.isBareAlone);
+  }
+  /** @param {boolean} isBare */
+  showBare(isBare) {
+    this.model?.set("bare", isBare);
+    this.isBareAlone = isBare;
+    this.requestDraw(["bare"]);
+  }
   /** @param {import("./plot_area.js").PlotArea} plotArea */
   drawPicture({ width, height, model }) {
     const { picture, canvas } = this;
@@ -1180,7 +1224,8 @@ var LivePane = class {
     const start = performance.now();
     const rows = this.rowsAtATime(picture.time, start);
     const drawn = { width: size.width, height: Math.ceil(size.height / rows) };
-    this.drawScene(pixels, drawn, picture.scene(this.isRestored, model.get("window")));
+    const scene = picture.scene(this.isRestored, model.get("window"));
+    this.drawScene(pixels, drawn, this.isBare ? withoutRatios(scene) : scene);
     if (rows > 1) repeatRows(pixels, size, rows);
     canvas.getContext("2d")?.putImageData(this.pixels, 0, 0);
     this.last = { time: picture.time, start, took: (performance.now() - start) * rows };
@@ -1270,6 +1315,9 @@ var LivePane = class {
     return marks.flatMap((mark) => this.places([[mark.x, mark.z]]).map((at) => at && { ...mark, x: at[0], z: at[1] })).filter((mark) => mark !== null);
   }
 };
+function withoutRatios(scene) {
+  return { ...scene, deformation: { ...scene.deformation, opacity: 0 } };
+}
 function repeatRows(pixels, { width, height }, rows) {
   for (let row = height - 1; row > 0; row--) {
     const from = Math.floor(row / rows) * width;
@@ -1283,8 +1331,7 @@ var FLAG = 14;
 var CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 var DRAW = {
   cutoff(group, mark) {
-    const disc = append(group, "circle", "disc", { r: 8, fill: mark.colour });
-    togglePale(appendText(group, "number", { y: 3.5 }, mark.text), disc, mark.colour);
+    append(group, "circle", "disc", { r: 3.5, fill: mark.colour });
   },
   held(group, mark) {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });
@@ -1430,7 +1477,42 @@ var PlotArea = class {
   }
 };
 
+// pointer_layer/near.js
+function splitNear(line, centres, radius) {
+  if (!centres.length) return { near: [], far: line };
+  const parts = { near: [], far: [] };
+  for (let i = 1; i < line.length; i++) {
+    const [from, to] = [line[i - 1], line[i]];
+    if (from && to) addSegment(parts, from, to, centres, radius);
+    else for (const part of [parts.near, parts.far]) part.push(null);
+  }
+  return parts;
+}
+function addSegment({ near, far }, from, to, centres, radius) {
+  const at = (share) => ({
+    x: from.x + share * (to.x - from.x),
+    y: from.y + share * (to.y - from.y)
+  });
+  const shares = [0, ...centres.flatMap((centre) => crossings(from, to, centre, radius)), 1].sort((a, b) => a - b);
+  for (let i = 1; i < shares.length; i++) {
+    const middle = at((shares[i - 1] + shares[i]) / 2);
+    const isNear = centres.some(({ x, y }) => Math.hypot(x - middle.x, y - middle.y) < radius);
+    const [part, other] = isNear ? [near, far] : [far, near];
+    if (!part.at(-1)) part.push(at(shares[i - 1]));
+    part.push(at(shares[i]));
+    if (other.at(-1)) other.push(null);
+  }
+}
+function crossings(from, to, centre, radius) {
+  const [dx, dy, x, y] = [to.x - from.x, to.y - from.y, from.x - centre.x, from.y - centre.y];
+  const [a, b, c] = [dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - radius * radius];
+  const root = Math.sqrt(b * b - a * c);
+  return [(-b - root) / a, (-b + root) / a].filter((share) => share > 0 && share < 1);
+}
+
 // pointer_layer/strokes.js
+var NEAR = 20;
+var DOT = { radius: 2, halo: 1, distance: 10 };
 var HALO = 1.5;
 var LABEL_MARGIN = 4;
 var LABEL_OFFSET = 9;
@@ -1446,30 +1528,49 @@ function decodeStroke({ origin, points, ...look }) {
   });
   return { ...look, points: decoded };
 }
-function drawStrokes(group, strokes, plotArea) {
+function drawStrokes(group, strokes, plotArea, cutoffs) {
   group.replaceChildren();
+  const handles = [];
   const lines = append(group, "g", "lines");
   const labels = append(group, "g", "labels");
   for (const stroke of strokes) {
     const pixels = stroke.points.map((point) => point && plotArea.toPixels(...point));
-    drawStroke(append(lines, "g", "stroke"), stroke, pixels);
+    const element = append(lines, "g", "stroke");
+    if (stroke.joined) drawLine(element, stroke, pixels, cutoffs);
+    if (stroke.dots) handles.push(...drawDots(element, stroke, pixels));
     if (stroke.label) drawLabel(labels, stroke, pixels, plotArea);
   }
+  return handles;
 }
-function drawStroke(group, stroke, pixels) {
-  const { colour, width } = stroke;
-  const line = { d: stroke.joined ? pathData(pixels) : "", "stroke-dasharray": stroke.dash.join(" ") };
-  const dots = { d: stroke.dots ? dotData(pixels) : "" };
-  const radius = width + 1;
-  append(group, "path", "halo", { ...line, "stroke-width": width + 2 * HALO });
-  append(group, "path", "halo", { ...dots, "stroke-width": 2 * (radius + HALO) });
-  append(group, "path", "line", { ...line, "stroke-width": width, stroke: colour });
-  append(group, "path", "dots", { ...dots, "stroke-width": 2 * radius, stroke: colour });
-  const chosen = pixels[stroke.chosen ?? -1];
-  if (chosen) append(group, "circle", "chosen", { cx: chosen.x, cy: chosen.y, r: radius + 3, stroke: colour });
+function drawLine(group, { colour, width, dash }, pixels, cutoffs) {
+  const { near, far } = splitNear(pixels, cutoffs, NEAR);
+  const thick = { d: pathData(far), "stroke-dasharray": dash.join(" ") };
+  append(group, "path", "halo", { ...thick, "stroke-width": width + 2 * HALO });
+  append(group, "path", "line", { ...thick, "stroke-width": width, stroke: colour });
+  const thin = pathData(near);
+  if (thin) append(group, "path", "thin", { d: thin, stroke: colour });
+}
+function drawDots(group, { colour, chosen }, pixels) {
+  const shown = thinned(pixels, chosen ?? -1, DOT.distance);
+  const d = dotData(shown);
+  append(group, "path", "halo", { d, "stroke-width": 2 * (DOT.radius + DOT.halo) });
+  append(group, "path", "dots", { d, "stroke-width": 2 * DOT.radius, stroke: colour });
+  const selected = pixels[chosen ?? -1];
+  if (selected)
+    append(group, "circle", "chosen", { cx: selected.x, cy: selected.y, r: DOT.radius + 3, stroke: colour });
+  return shown.map((pixel) => ({ ...pixel, colour }));
+}
+function thinned(pixels, chosen, distance2) {
+  const kept = [];
+  pixels.forEach((pixel, index) => {
+    const last = kept.at(-1);
+    const isFar = pixel && last ? Math.hypot(pixel.x - last.x, pixel.y - last.y) >= distance2 : true;
+    if (pixel && (isFar || index === chosen)) kept.push(pixel);
+  });
+  return kept;
 }
 function dotData(pixels) {
-  return pixels.map((pixel) => pixel && `M${pixel.x.toFixed(2)},${pixel.y.toFixed(2)}h0`).join("");
+  return pixels.map(({ x, y }) => `M${x.toFixed(2)},${y.toFixed(2)}h0`).join("");
 }
 function drawLabel(group, stroke, pixels, plotArea) {
   const start = firstVisible(pixels, plotArea);
@@ -1521,14 +1622,15 @@ function entryPoint(from, to, { width, height }) {
 
 // pointer_layer/view.js
 var REST = 250;
-var ALL_PARTS = ["axes", "note", "picture", "mesh", "strokes", "marks", "cursors"];
+var ALL_PARTS = ["axes", "note", "picture", "bare", "mesh", "strokes", "marks", "cursors"];
 var PARTS_BY_TRAIT2 = {
   axes: ["axes", "note"],
   label: ["axes"],
   size: ["axes"],
   window: ["picture", "mesh", "strokes", "marks", "cursors"],
   strokes: ["strokes"],
-  marks: ["marks"],
+  marks: ["strokes", "marks"],
+  // lines are thin near cut-offs
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
   rubber: ["cursors"],
@@ -1540,13 +1642,13 @@ function createElements(el) {
   const axes = append(plot, "g", "axes");
   const inside = append(plot, "svg", "inside", { width: "100%", height: "100%" });
   const mesh = append(inside, "path", "mesh");
-  const [strokes, marks, linked, own, band] = ["strokes", "marks", "linked", "own", "band"].map(
+  const [strokes, marks, grown, linked, own, band] = ["strokes", "marks", "grown", "linked", "own", "band"].map(
     (name) => append(inside, "g", name)
   );
   const note = document.createElement("div");
   note.className = "note";
   el.append(note);
-  return { plot, axes, mesh, strokes, marks, linked, own, band, note };
+  return { plot, axes, mesh, strokes, marks, grown, linked, own, band, note };
 }
 var LayerView = class {
   /**
@@ -1560,6 +1662,7 @@ var LayerView = class {
     this.plotArea = new PlotArea(model, this.elements.plot);
     this.pointer = null;
     this.maps = null;
+    this.handles = [];
     this.live = new LivePane(model, el, (parts) => this.requestDraw(parts));
     this.outdated = /* @__PURE__ */ new Set();
     this.isScheduled = false;
@@ -1596,14 +1699,22 @@ var LayerView = class {
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
     if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
-    if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
+    if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
+    const marks = live.placedMarks(model.get("marks"));
+    if (outdated.has("strokes")) this.drawLines(marks);
     if (outdated.has("marks"))
-      drawMarks(
-        elements.marks,
-        live.placedMarks(model.get("marks")),
-        plotArea,
-        (index) => model.send({ kind: "finding", key: String(index) })
-      );
+      drawMarks(elements.marks, marks, plotArea, (index) => model.send({ kind: "finding", key: String(index) }));
+  }
+  /** @param {import("./types.js").Mark[]} marks */
+  drawLines(marks) {
+    const cutoffs = marks.filter(({ kind }) => kind === "cutoff").map(({ x, z, colour, text }) => ({ ...this.plotArea.toPixels(x, z), colour, text }));
+    const { strokes } = this.elements;
+    this.handles = [...drawStrokes(strokes, this.live.placedStrokes(this.strokes), this.plotArea, cutoffs), ...cutoffs];
+    this.growHandle();
+  }
+  /** Draw the handle at the pointer large. */
+  growHandle() {
+    drawGrown(this.elements.grown, nearestHandle(this.handles, this.pointer));
   }
   get strokes() {
     return this.model.get("strokes").map(decodeStroke);
@@ -1621,6 +1732,7 @@ var LayerView = class {
   drawCursors() {
     const { x, z } = this.model.get("linked");
     const linked = x === void 0 || z === void 0 ? null : this.plotArea.toPixels(x, z);
+    this.growHandle();
     drawCross(this.elements.own, this.pointer, this.plotArea);
     drawCross(this.elements.linked, linked, this.plotArea);
     drawRubberBand(
@@ -1757,7 +1869,7 @@ function mount(model, el, throttles) {
     movePointer: (position) => view.movePointer(position),
     scheduleRest: () => view.scheduleRest()
   };
-  const keyboard = new Keyboard(plot, model, actions.send);
+  const keyboard = new Keyboard(plot, model, actions.send, (isBare) => view.live.showBare(isBare));
   keyboard.listenWith(listen);
   new GestureRecogniser(plot, view.plotArea, keyboard, throttles, actions).listenWith(listen);
   const stopObserving = observe(model, view, throttles);

@@ -6,14 +6,21 @@ import { Keyboard } from "../../../seiswidgets/widgets/js/pointer_layer/keyboard
 let hotkeys;
 /** @type {string[]} */
 let sent;
+/** @type {boolean[]} */
+let bare;
 /** @type {any} */
 let keyboard;
 
 beforeEach(() => {
-  [hotkeys, sent] = [["Enter", "Ctrl+z", " "], []];
+  [hotkeys, sent, bare] = [["Enter", "Ctrl+z", " "], [], []];
   const plot = { classList: { toggle: () => true, remove() {} } };
   const model = /** @type {any} */ ({ get: () => hotkeys });
-  keyboard = new Keyboard(plot, model, (_kind, _event, more) => sent.push(/** @type {any} */ (more).key));
+  keyboard = new Keyboard(
+    plot,
+    model,
+    (_kind, _event, more) => sent.push(/** @type {any} */ (more).key),
+    (isBare) => bare.push(isBare),
+  );
 });
 
 /**
@@ -60,4 +67,12 @@ test("Space is never sent unless it is a hotkey", () => {
   assert.ok(act("press", " "));
   act("release", " ");
   assert.deepEqual(sent, []);
+});
+
+test("V is never sent: the section is bare while it is held", () => {
+  hotkeys.push("v");
+  assert.ok(act("press", "v"));
+  act("release", "v");
+  assert.ok(!act("press", "v", { ctrlKey: true }));
+  assert.deepEqual([bare, sent], [[true, false], []]);
 });

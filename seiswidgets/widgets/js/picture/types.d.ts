@@ -30,6 +30,7 @@ export type PictureTraits = {
   changing: boolean;
   picture: Picture | null;
   revision: number;
+  bare?: boolean; // while nothing but the section is to be seen
 };
 
 export type PictureModel = AnyModel<PictureTraits>;

@@ -1,4 +1,6 @@
-// The keyboard: the hotkeys of the layer, and Space, which pans while it is held.
+// The keyboard: the hotkeys of the layer; Space, which pans while it is held; and V, which hides the picks meanwhile.
+
+const BARE = "v";
 
 /**
  * @typedef {object} ModifierKeys
@@ -17,17 +19,19 @@ export function modifiers(event) {
   return Object.entries(pressed).flatMap(([name, isPressed]) => (isPressed ? [name] : []));
 }
 
-/** Sends hotkeys to the kernel, and knows whether Space is held. */
+/** Sends hotkeys to the kernel, and knows whether Space or V is held. */
 export class Keyboard {
   /**
    * @param {{ classList: Pick<DOMTokenList, "toggle" | "remove"> }} plot
    * @param {Pick<import("./types.js").Model, "get">} model
    * @param {Send} send
+   * @param {(isBare: boolean) => void} showBare
    */
-  constructor(plot, model, send) {
+  constructor(plot, model, send, showBare) {
     this.plot = plot;
     this.model = model;
     this.send = send;
+    this.showBare = showBare;
     this.isSpaceDown = false;
     this.hasPanned = false; // since Space was pressed
   }
@@ -39,6 +43,7 @@ export class Keyboard {
     listen("blur", () => {
       this.plot.classList.remove("by-pointer");
       this.setSpace(false);
+      this.showBare(false);
     });
   }
 
@@ -68,6 +73,11 @@ export class Keyboard {
       this.send("menu", event);
       return;
     }
+    if (event.key.toLowerCase() === BARE && !withCtrl && !event.altKey) {
+      event.preventDefault();
+      this.showBare(true);
+      return;
+    }
     const isSpace = event.key === " " && !withCtrl;
     if (!isSpace && !this.isHotkey((withCtrl ? "Ctrl+" : "") + event.key)) return; // so that Tab leaves the pane
     event.preventDefault();
@@ -80,6 +90,7 @@ export class Keyboard {
 
   /** @param {KeyboardEvent} event */
   release(event) {
+    if (event.key.toLowerCase() === BARE) this.showBare(false);
     if (event.key !== " " || !this.isSpaceDown) return;
     event.preventDefault();
     this.setSpace(false);

@@ -23,6 +23,7 @@ const PARTS_BY_TRAIT = {
   picture: ["picture", "mesh"],
   colours: ["picture"],
   deformation: ["picture"],
+  bare: ["bare", "picture"],
   changing: [], // draws what was held back
 };
 
@@ -49,6 +50,7 @@ export class LivePane {
     this.section = new Uint32Array(0);
     this.heldAt = -Infinity;
     this.isStopped = false;
+    this.isBareAlone = false;
     this.stop = () => {
       this.isStopped = true;
     };
@@ -92,6 +94,18 @@ export class LivePane {
     return Boolean(this.model?.get("changing")) && performance.now() - this.heldAt < LONGEST_HOLD;
   }
 
+  /** True while nothing but the section is to be seen, in all panes that share the picture. */
+  get isBare() {
+    return Boolean(this.model ? this.model.get("bare") : this.isBareAlone);
+  }
+
+  /** @param {boolean} isBare */
+  showBare(isBare) {
+    this.model?.set("bare", isBare);
+    this.isBareAlone = isBare; // in a pane without a picture
+    this.requestDraw(["bare"]);
+  }
+
   /** @param {import("./plot_area.js").PlotArea} plotArea */
   drawPicture({ width, height, model }) {
     const { picture, canvas } = this;
@@ -105,7 +119,8 @@ export class LivePane {
     const start = performance.now();
     const rows = this.rowsAtATime(picture.time, start);
     const drawn = { width: size.width, height: Math.ceil(size.height / rows) };
-    this.drawScene(pixels, drawn, picture.scene(this.isRestored, model.get("window")));
+    const scene = picture.scene(this.isRestored, model.get("window"));
+    this.drawScene(pixels, drawn, this.isBare ? withoutRatios(scene) : scene);
     if (rows > 1) repeatRows(pixels, size, rows);
     canvas.getContext("2d")?.putImageData(this.pixels, 0, 0);
     this.last = { time: picture.time, start, took: (performance.now() - start) * rows };
@@ -204,6 +219,11 @@ export class LivePane {
       .flatMap((mark) => this.places([[mark.x, mark.z]]).map((at) => at && { ...mark, x: at[0], z: at[1] }))
       .filter((mark) => mark !== null);
   }
+}
+
+/** @param {import("../picture/scene.js").Scene} scene */
+function withoutRatios(scene) {
+  return { ...scene, deformation: { ...scene.deformation, opacity: 0 } };
 }
 
 /**

@@ -1,7 +1,7 @@
-// Marks on the section: a numbered disc at a cut-off, a pin at the held point, the keyboard's cursor, and flags of
-// findings, which can be clicked.
+// Marks on the section: a disc at a cut-off, whose number shows while the pointer is near, a pin at the held point, the
+// keyboard's cursor, and flags of findings, which can be clicked.
 
-import { append, appendText, togglePale } from "../shared/svg.js";
+import { append } from "../shared/svg.js";
 
 const PIN = "M0,0C-2,-6 -7,-9 -7,-14A7,7 0 1 1 7,-14C7,-9 2,-6 0,0Z"; // its tip is at 0,0
 const FLAG = 14; // css pixels from a finding's point up to its icon
@@ -12,8 +12,7 @@ const CROSS = "M-18,0H-6M6,0H18M0,-18V-6M0,6V18";
 /** @type {Record<Mark["kind"], (group: SVGGElement, mark: Mark, y: number) => void>} */
 const DRAW = {
   cutoff(group, mark) {
-    const disc = append(group, "circle", "disc", { r: 8, fill: mark.colour });
-    togglePale(appendText(group, "number", { y: 3.5 }, mark.text), disc, mark.colour);
+    append(group, "circle", "disc", { r: 3.5, fill: mark.colour });
   },
   held(group, mark) {
     append(group, "path", "pin", { d: PIN, fill: mark.colour });

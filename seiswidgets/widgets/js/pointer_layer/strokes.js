@@ -1,8 +1,12 @@
-// Lines on the section: each with a pale halo, dots at its vertices and a label near its start.
+// Lines on the section: each with a pale halo, dots at its vertices and a label near its start. Near cut-offs, where the
+// reflectors are the evidence, they are thin and without a halo.
 
 import { toNumbers } from "../shared/bytes.js";
 import { append, appendText, pathData, togglePale } from "../shared/svg.js";
+import { splitNear } from "./near.js";
 
+const NEAR = 20; // css pixels around a cut-off
+const DOT = { radius: 2, halo: 1, distance: 10 }; // css pixels; the last between two dots of a line
 const HALO = 1.5; // css pixels of the halo on either side of a line
 const LABEL_MARGIN = 4; // css pixels between a label and the border
 const LABEL_OFFSET = 9; // css pixels between a label and its vertex
@@ -28,43 +32,85 @@ export function decodeStroke({ origin, points, ...look }) {
  * @param {SVGGElement} group
  * @param {Stroke[]} strokes
  * @param {import("./plot_area.js").PlotArea} plotArea
+ * @param {Pixel[]} cutoffs
+ * @returns {import("./handles.js").Handle[]} the dots
  */
-export function drawStrokes(group, strokes, plotArea) {
+export function drawStrokes(group, strokes, plotArea, cutoffs) {
   group.replaceChildren();
+  /** @type {import("./handles.js").Handle[]} */
+  const handles = [];
   const lines = append(group, "g", "lines");
   const labels = append(group, "g", "labels"); // above all lines
   for (const stroke of strokes) {
     const pixels = stroke.points.map((point) => point && plotArea.toPixels(...point));
-    drawStroke(append(lines, "g", "stroke"), stroke, pixels);
+    const element = append(lines, "g", "stroke");
+    if (stroke.joined) drawLine(element, stroke, pixels, cutoffs);
+    if (stroke.dots) handles.push(...drawDots(element, stroke, pixels));
     if (stroke.label) drawLabel(labels, stroke, pixels, plotArea);
   }
+  return handles;
 }
 
 /**
  * @param {SVGGElement} group
  * @param {Stroke} stroke
  * @param {(Pixel | null)[]} pixels
+ * @param {Pixel[]} cutoffs
  */
-function drawStroke(group, stroke, pixels) {
-  const { colour, width } = stroke;
-  const line = { d: stroke.joined ? pathData(pixels) : "", "stroke-dasharray": stroke.dash.join(" ") };
-  const dots = { d: stroke.dots ? dotData(pixels) : "" };
-  const radius = width + 1;
-  append(group, "path", "halo", { ...line, "stroke-width": width + 2 * HALO });
-  append(group, "path", "halo", { ...dots, "stroke-width": 2 * (radius + HALO) });
-  append(group, "path", "line", { ...line, "stroke-width": width, stroke: colour });
-  append(group, "path", "dots", { ...dots, "stroke-width": 2 * radius, stroke: colour });
-  const chosen = pixels[stroke.chosen ?? -1];
-  if (chosen) append(group, "circle", "chosen", { cx: chosen.x, cy: chosen.y, r: radius + 3, stroke: colour });
+function drawLine(group, { colour, width, dash }, pixels, cutoffs) {
+  const { near, far } = splitNear(pixels, cutoffs, NEAR);
+  const thick = { d: pathData(far), "stroke-dasharray": dash.join(" ") };
+  append(group, "path", "halo", { ...thick, "stroke-width": width + 2 * HALO });
+  append(group, "path", "line", { ...thick, "stroke-width": width, stroke: colour });
+  const thin = pathData(near);
+  if (thin) append(group, "path", "thin", { d: thin, stroke: colour });
+}
+
+/**
+ * Draw dots at vertices; where these are dense, at some of them, but always at the chosen one.
+ *
+ * @param {SVGGElement} group
+ * @param {Stroke} stroke
+ * @param {(Pixel | null)[]} pixels
+ * @returns {import("./handles.js").Handle[]}
+ */
+function drawDots(group, { colour, chosen }, pixels) {
+  const shown = thinned(pixels, chosen ?? -1, DOT.distance);
+  const d = dotData(shown);
+  append(group, "path", "halo", { d, "stroke-width": 2 * (DOT.radius + DOT.halo) });
+  append(group, "path", "dots", { d, "stroke-width": 2 * DOT.radius, stroke: colour });
+  const selected = pixels[chosen ?? -1];
+  if (selected)
+    append(group, "circle", "chosen", { cx: selected.x, cy: selected.y, r: DOT.radius + 3, stroke: colour });
+  return shown.map((pixel) => ({ ...pixel, colour }));
+}
+
+/**
+ * The first point, each that lies far enough from the last one kept, and the chosen one.
+ *
+ * @param {(Pixel | null)[]} pixels
+ * @param {number} chosen index
+ * @param {number} distance
+ * @returns {Pixel[]}
+ */
+export function thinned(pixels, chosen, distance) {
+  /** @type {Pixel[]} */
+  const kept = [];
+  pixels.forEach((pixel, index) => {
+    const last = kept.at(-1);
+    const isFar = pixel && last ? Math.hypot(pixel.x - last.x, pixel.y - last.y) >= distance : true;
+    if (pixel && (isFar || index === chosen)) kept.push(pixel);
+  });
+  return kept;
 }
 
 /**
  * The d attribute of dots: lines without length, whose round ends a browser draws all at once.
  *
- * @param {(Pixel | null)[]} pixels
+ * @param {Pixel[]} pixels
  */
 function dotData(pixels) {
-  return pixels.map((pixel) => pixel && `M${pixel.x.toFixed(2)},${pixel.y.toFixed(2)}h0`).join("");
+  return pixels.map(({ x, y }) => `M${x.toFixed(2)},${y.toFixed(2)}h0`).join("");
 }
 
 /**

@@ -5,6 +5,7 @@ import { toNumbers } from "../shared/bytes.js";
 import { append } from "../shared/svg.js";
 import { drawAxes } from "./axes.js";
 import { drawCross, drawRubberBand } from "./cursors.js";
+import { drawGrown, nearestHandle } from "./handles.js";
 import { modifiers } from "./keyboard.js";
 import { LivePane } from "./live_pane.js";
 import { drawMarks } from "./marks.js";
@@ -14,10 +15,10 @@ import { decodeStroke, drawStrokes } from "./strokes.js";
 
 const REST = 250; // ms without a wheel step or a drag before the picture may be sharpened
 
-/** @typedef {"axes" | "note" | "picture" | "mesh" | "strokes" | "marks" | "cursors"} Part */
+/** @typedef {"axes" | "note" | "picture" | "bare" | "mesh" | "strokes" | "marks" | "cursors"} Part */
 
 /** @type {Part[]} */
-const ALL_PARTS = ["axes", "note", "picture", "mesh", "strokes", "marks", "cursors"];
+const ALL_PARTS = ["axes", "note", "picture", "bare", "mesh", "strokes", "marks", "cursors"];
 
 /**
  * The parts that show a trait.
@@ -30,7 +31,7 @@ export const PARTS_BY_TRAIT = {
   size: ["axes"],
   window: ["picture", "mesh", "strokes", "marks", "cursors"],
   strokes: ["strokes"],
-  marks: ["marks"],
+  marks: ["strokes", "marks"], // lines are thin near cut-offs
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
   rubber: ["cursors"],
@@ -44,13 +45,13 @@ function createElements(el) {
   const axes = append(plot, "g", "axes");
   const inside = append(plot, "svg", "inside", { width: "100%", height: "100%" }); // clips what extends beyond
   const mesh = append(inside, "path", "mesh");
-  const [strokes, marks, linked, own, band] = ["strokes", "marks", "linked", "own", "band"].map((name) =>
-    append(inside, "g", name),
+  const [strokes, marks, grown, linked, own, band] = ["strokes", "marks", "grown", "linked", "own", "band"].map(
+    (name) => append(inside, "g", name),
   );
   const note = document.createElement("div");
   note.className = "note";
   el.append(note);
-  return { plot, axes, mesh, strokes, marks, linked, own, band, note };
+  return { plot, axes, mesh, strokes, marks, grown, linked, own, band, note };
 }
 
 /** Draws the traits of the layer in one element. */
@@ -68,6 +69,8 @@ export class LayerView {
     this.pointer = null; // null while it is elsewhere
     /** @type {PiecewiseAffineMap[] | null} */
     this.maps = null; // of the chain, built when first needed
+    /** @type {import("./handles.js").Handle[]} */
+    this.handles = [];
     this.live = new LivePane(model, el, (parts) => this.requestDraw(parts));
     /** @type {Set<Part>} */
     this.outdated = new Set();
@@ -109,11 +112,26 @@ export class LayerView {
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
     if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
-    if (outdated.has("strokes")) drawStrokes(elements.strokes, live.placedStrokes(this.strokes), plotArea);
+    if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
+    const marks = live.placedMarks(model.get("marks"));
+    if (outdated.has("strokes")) this.drawLines(marks);
     if (outdated.has("marks"))
-      drawMarks(elements.marks, live.placedMarks(model.get("marks")), plotArea, (index) =>
-        model.send({ kind: "finding", key: String(index) }),
-      );
+      drawMarks(elements.marks, marks, plotArea, (index) => model.send({ kind: "finding", key: String(index) }));
+  }
+
+  /** @param {import("./types.js").Mark[]} marks */
+  drawLines(marks) {
+    const cutoffs = marks
+      .filter(({ kind }) => kind === "cutoff")
+      .map(({ x, z, colour, text }) => ({ ...this.plotArea.toPixels(x, z), colour, text }));
+    const { strokes } = this.elements;
+    this.handles = [...drawStrokes(strokes, this.live.placedStrokes(this.strokes), this.plotArea, cutoffs), ...cutoffs];
+    this.growHandle();
+  }
+
+  /** Draw the handle at the pointer large. */
+  growHandle() {
+    drawGrown(this.elements.grown, nearestHandle(this.handles, this.pointer));
   }
 
   get strokes() {
@@ -135,6 +153,7 @@ export class LayerView {
   drawCursors() {
     const { x, z } = this.model.get("linked");
     const linked = x === undefined || z === undefined ? null : this.plotArea.toPixels(x, z);
+    this.growHandle();
     drawCross(this.elements.own, this.pointer, this.plotArea);
     drawCross(this.elements.linked, linked, this.plotArea);
     drawRubberBand(

@@ -1,0 +1,62 @@
+// The parts of a line near some points and away from them.
+
+/** @typedef {import("./types.js").Pixel} Pixel */
+/** @typedef {(Pixel | null)[]} Line interrupted by nulls */
+
+/**
+ * Split a line where it enters and leaves circles.
+ *
+ * @param {Line} line
+ * @param {Pixel[]} centres
+ * @param {number} radius
+ * @returns {{ near: Line, far: Line }}
+ */
+export function splitNear(line, centres, radius) {
+  if (!centres.length) return { near: [], far: line };
+  /** @type {{ near: Line, far: Line }} */
+  const parts = { near: [], far: [] };
+  for (let i = 1; i < line.length; i++) {
+    const [from, to] = [line[i - 1], line[i]];
+    if (from && to) addSegment(parts, from, to, centres, radius);
+    else for (const part of [parts.near, parts.far]) part.push(null);
+  }
+  return parts;
+}
+
+/**
+ * @param {{ near: Line, far: Line }} parts
+ * @param {Pixel} from
+ * @param {Pixel} to
+ * @param {Pixel[]} centres
+ * @param {number} radius
+ */
+function addSegment({ near, far }, from, to, centres, radius) {
+  const at = (/** @type {number} */ share) => ({
+    x: from.x + share * (to.x - from.x),
+    y: from.y + share * (to.y - from.y),
+  });
+  const shares = [0, ...centres.flatMap((centre) => crossings(from, to, centre, radius)), 1].sort((a, b) => a - b);
+  for (let i = 1; i < shares.length; i++) {
+    const middle = at((shares[i - 1] + shares[i]) / 2);
+    const isNear = centres.some(({ x, y }) => Math.hypot(x - middle.x, y - middle.y) < radius);
+    const [part, other] = isNear ? [near, far] : [far, near];
+    if (!part.at(-1)) part.push(at(shares[i - 1]));
+    part.push(at(shares[i]));
+    if (other.at(-1)) other.push(null);
+  }
+}
+
+/**
+ * The shares of a segment, between 0 and 1, at which it crosses a circle.
+ *
+ * @param {Pixel} from
+ * @param {Pixel} to
+ * @param {Pixel} centre
+ * @param {number} radius
+ */
+function crossings(from, to, centre, radius) {
+  const [dx, dy, x, y] = [to.x - from.x, to.y - from.y, from.x - centre.x, from.y - centre.y];
+  const [a, b, c] = [dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - radius * radius];
+  const root = Math.sqrt(b * b - a * c); // NaN if it misses the circle
+  return [(-b - root) / a, (-b + root) / a].filter((share) => share > 0 && share < 1);
+}
