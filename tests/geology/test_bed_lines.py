@@ -34,7 +34,7 @@ def test_gaps_of_the_picks_beside_a_fault_count_as_bed():
     short = []
     for horizon in picks.horizons:
         left, right = (piece.copy() for piece in sorted(horizon.pieces, key=lambda piece: piece[0, 0]))
-        left[-1, 0], right[0, 0] = left[-1, 0] - 80, right[0, 0] + 80
+        left[-1, 0], right[0, 0] = left[-1, 0] - 30, right[0, 0] + 30
         short.append(sw.Horizon(left, right, name=horizon.name))
     restored = unfaulted(case, sw.Interpretation(picks.faults, short))
     for whole, part in zip(picks.horizons, short, strict=True):
