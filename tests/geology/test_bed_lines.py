@@ -33,9 +33,8 @@ def test_gaps_of_the_picks_beside_a_fault_count_as_bed():
     picks = case.interpretation
     short = []
     for horizon in picks.horizons:
-        left, right = (piece.copy() for piece in sorted(horizon.pieces, key=lambda piece: piece[0, 0]))
-        left[-1, 0], right[0, 0] = left[-1, 0] - 30, right[0, 0] + 30
-        short.append(sw.Horizon(left, right, name=horizon.name))
+        left, right = sorted(horizon.pieces, key=lambda piece: piece[0, 0])
+        short.append(sw.Horizon(left[:-1], right[1:], name=horizon.name))
     restored = unfaulted(case, sw.Interpretation(picks.faults, short))
     for whole, part in zip(picks.horizons, short, strict=True):
         extents = [bed_extent(restored, picks.faults, horizon) for horizon in (whole, part)]
