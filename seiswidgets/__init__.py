@@ -30,6 +30,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "geology.ensembles.uncertainty": ["Uncertainty"],
         "geology.findings": ["Finding"],
         "geology.correlation": ["cross_fault_correlation", "likeness"],
+        "geology.flexure": ["Isostasy"],
         "geology.lithology": ["LITHOLOGIES", "Lithology"],
         "geology.picks": ["Fault", "Horizon", "Interpretation"],
         "geology.plan": ["Plan", "Step"],

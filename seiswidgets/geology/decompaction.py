@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+import shapely
 
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.point_location import barycentric_coefficients
@@ -21,7 +22,7 @@ from seiswidgets.geology.layers import WATER, Columns, Layers
 from seiswidgets.geology.lithology import PER_KM, pore_thickness, thickness_at
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.report import Observations
-from seiswidgets.geology.stage import STRIP, Stage
+from seiswidgets.geology.stage import DECOMPACT, STRIP, UNERODE, Stage
 from seiswidgets.geology.stratigraphy import Stratigraphy
 
 PARTS = 4  # that each stretch of a column is divided into
@@ -45,12 +46,21 @@ class BurialMemory:
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Depth of burial that the porosity at points after all stages stands for, in metres; shape (n,)."""
-        for stage in reversed(self.stages):
+        for index in reversed(range(len(self.stages))):
+            stage = self.stages[index]
             if stage.burial is not None:
-                return interpolated(stage, stage.burial, points)
+                burial = interpolated(stage, stage.burial, points)
+                return np.fmax(burial, self._before(index, points)) if stage.kind == UNERODE else burial
             if stage.kind != STRIP:  # which leaves every point where it is
-                points = stage.map.inverse(points, stage.map.target_finder(points))
+                points = stage.map.inverse(points)
         return np.asarray(points[:, 1] - np.interp(points[:, 0], *self.sea_floor.T))
+
+    def _before(self, index: int, points: np.ndarray) -> np.ndarray:
+        """The same before rock was put back; NaN for that rock."""
+        there = shapely.intersects_xy(self.stages[index].domain.outline, points)
+        found = np.full(len(points), np.nan)
+        found[there] = BurialMemory(self.stages[:index], self.sea_floor)(points[there])
+        return found
 
 
 def interpolated(stage: Stage, values: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -160,7 +170,7 @@ def decompact_stage(
     burial = np.minimum(_at_or_above(depth, columns.at), _at_or_above(compaction.burial[..., 1], columns.at))
     vertices = np.column_stack([x, z - (grown - rise)])
     observe = partial(_observe, mesh, vertices, layers, stratigraphy, memory, burial)
-    return ClosedForm("decompact", tuple(stratigraphy.tops), domain, progress).stage(
+    return ClosedForm(DECOMPACT, tuple(stratigraphy.tops), domain, progress).stage(
         mesh, vertices, observe, notes, began, burial
     )
 

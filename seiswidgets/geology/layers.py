@@ -29,12 +29,15 @@ class Layers:
     faults : list of LineString
     count : int
         Number of layers.
+    youngest : int
+        Index of the youngest layer that is left: rock above its top was eroded, and put back.
     """
 
     domain: RestorationDomain
     tops: Mapping[int, Sequence[LineString]]
     faults: Sequence[LineString]
     count: int
+    youngest: int = WATER
 
     @property
     def lines(self) -> list[LineString]:
@@ -81,9 +84,8 @@ class Layers:
             np.maximum.at(below, under[under >= 0], index)
             np.minimum.at(above, over[over >= 0], index)
         layer = np.asarray(np.where(below >= 0, below, above - 1))
-        if 0 not in self.tops:  # then the youngest layer reaches up to the top of the section
-            layer = np.maximum(layer, 0)
-        return self._completed(layer, (below < 0) & (above == self.count))
+        layer = self._completed(layer, (below < 0) & (above == self.count))
+        return np.maximum(layer, self.youngest)
 
     def _completed(self, layer: np.ndarray, unknown: np.ndarray) -> np.ndarray:
         """Give faces that touch no top the layer of the known face next above; the oldest if there is none."""
@@ -200,13 +202,17 @@ def _padded(column: np.ndarray, depth: np.ndarray, layer: np.ndarray, count: int
     layers[column, position] = layer
     at = np.full(count, -1)
     if z is not None:
-        reached = nodes[..., 1] <= z[:, None] + 1e-12 * np.abs(z[:, None])
+        reached = (nodes[..., 1] <= z[:, None] + 1e-12 * np.abs(z[:, None])) & (nodes[..., 1] > nodes[..., 0])
         at = np.where(reached.any(axis=1), reached.shape[1] - 1 - np.argmax(reached[:, ::-1], axis=1), -1)
     return Columns(nodes, layers, at)
 
 
 def layers_of(
-    domain: RestorationDomain, pieces: Mapping[int, Sequence[LineString]], faults: Sequence[LineString], count: int
+    domain: RestorationDomain,
+    pieces: Mapping[int, Sequence[LineString]],
+    faults: Sequence[LineString],
+    count: int,
+    youngest: int = WATER,
 ) -> Layers:
     """Divide the rock into layers.
 
@@ -221,6 +227,8 @@ def layers_of(
     faults : list of LineString
     count : int
         Number of layers.
+    youngest : int
+        See `Layers`.
     """
     segments = {layer: horizon_segments(lines, faults, domain.cell) for layer, lines in pieces.items()}
     tops = {}
@@ -230,7 +238,7 @@ def layers_of(
         lines = [domain.simplify(_drawn_on(part, walls, domain)) for part in parts]
         tops[layer] = [line for line in lines if line.intersects(domain.outline)]
     faults = [part for line in faults for part in _inside(domain.simplify(line), domain)]
-    return Layers(domain, {layer: lines for layer, lines in tops.items() if lines}, faults, count)
+    return Layers(domain, {layer: lines for layer, lines in tops.items() if lines}, faults, count, youngest)
 
 
 def _border_lines(domain: RestorationDomain) -> list[LineString]:

@@ -16,14 +16,17 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.bodies import Body, body_polygons, without_bodies
 from seiswidgets.geology.decompaction import decompact_stage
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.erosion import unerode_stage
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.flattening import flatten_stage
+from seiswidgets.geology.flexure import MIRROR, Isostasy
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.rebound import isostasy_stage
 from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile, checked_slip
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
-from seiswidgets.geology.stage import Stage
+from seiswidgets.geology.stage import DECOMPACT, STRIP, UNERODE, Stage
 from seiswidgets.geology.stratified_rock import StratifiedRock, fault_lines_of
 from seiswidgets.geology.stratigraphy import Profile, Stratigraphy, checked_profile
 from seiswidgets.geology.stripping import strip_stage
@@ -174,7 +177,7 @@ class Restoration:
         drawn = _drawn(faults, boundaries, horizons)
         return self._with_stage(replace(held, weights=solver_options.weights, slip=profiles, drawn=drawn), notes)
 
-    def _with_stage(self, stage: Stage, notes: Sequence[Finding]) -> "Restoration":
+    def _with_stage(self, stage: Stage, notes: Sequence[Finding] = ()) -> "Restoration":
         return replace(self, stages=(*self.stages, stage.with_notes(*notes)))
 
     def flatten(
@@ -219,7 +222,7 @@ class Restoration:
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
         picks = self.usable_picks
         pieces = picks.bed_lines(horizon)
-        level = self._profile_in_rock("datum", datum)
+        level = None if datum is None else self._profile_in_rock("datum", datum)
         if by == VERTICAL_SHEAR:
             stage = shear_flat_stage(self.domain, horizon.name, pieces, [], level, solver_options.progress)
         else:
@@ -230,10 +233,8 @@ class Restoration:
         stage = replace(stage, weights=solver_options.weights, drawn=_drawn(horizon, beds), age=age)
         return self._with_stage(stage, (*stage.outcome.notes, *picks.notes([horizon])))
 
-    def _profile_in_rock(self, name: str, profile: float | Profile | None) -> float | Profile | None:
+    def _profile_in_rock(self, name: str, profile: float | Profile) -> float | Profile:
         """A depth, or a profile, in metres of rock."""
-        if profile is None:
-            return None
         checked, (dx, dz) = checked_profile(name, profile), self.original.metres.tolist()
         return tuple((x * dx, z * dz) for x, z in checked) if isinstance(checked, tuple) else checked * dz
 
@@ -307,6 +308,87 @@ class Restoration:
         stage = decompact_stage(self.domain, rock.layers, stratigraphy, rock.memory, rock.notes, progress)
         drawn = _drawn(list(rock.tops.values()), interpretation.faults)
         return self._with_stage(replace(stage, age=age, drawn=drawn), stage.outcome.notes)
+
+    def isostasy(
+        self,
+        model: Isostasy,
+        stratigraphy: Stratigraphy,
+        interpretation: Interpretation,
+        *,
+        beyond: str = MIRROR,
+        age: float | None = None,
+        progress: Progress | None = None,
+    ) -> "Restoration":
+        """Let the crust rise, or sink, under what the steps just before took away or put back.
+
+        These are the last steps that strip, unerode or decompact; the load is the change of the weight of the rock, the
+        water in its pores, and the water above it. Columns move up and down as wholes.
+
+        Parameters
+        ----------
+        model : Isostasy
+            The strength of the crust, the densities, and the sea level.
+        stratigraphy : Stratigraphy
+            Gives the rock its density.
+        interpretation : Interpretation
+            Holds the tops of the layers, and the faults.
+        beyond : {"mirror", "constant", "zero"}
+            The load beyond the section: its mirror image, that at its ends, or none.
+        age : float, optional
+            In Ma.
+        progress : callable(iteration, energy, vertices), optional
+            Called once; returning False cancels.
+
+        Raises
+        ------
+        PickError
+            If a top does not exist, or two tops cross.
+        SettingError
+            If ``beyond`` is none of these.
+        Cancelled
+        """
+        validation.checked_kind(model, Isostasy, "model")
+        count = len(self.stages)
+        while count and self.stages[count - 1].kind in (STRIP, UNERODE, DECOMPACT):
+            count -= 1
+        states = (replace(self, stages=self.stages[:count]), self)
+        before, after = (state.stratified(stratigraphy, interpretation) for state in states)
+        stage = isostasy_stage(self.domain, model, before, after, beyond, progress)
+        drawn = _drawn(list(after.tops.values()), interpretation.faults)
+        return self._with_stage(replace(stage, age=age, drawn=drawn))
+
+    def unerode(
+        self,
+        surface: float | Profile,
+        *,
+        name: str = "eroded rock",
+        age: float | None = None,
+        progress: Progress | None = None,
+    ) -> "Restoration":
+        """Put eroded rock back, as an area without an image.
+
+        It belongs to the layer whose top was stripped last. The rock below remembers that it was buried under it.
+
+        Parameters
+        ----------
+        surface : float or list of (x, z)
+            The surface before the erosion, in the section as it is after the steps so far; level beyond its ends. What
+            lies above it stays.
+        name : str
+            Names it in reports.
+        age : float, optional
+            In Ma.
+        progress : callable(iteration, energy, vertices), optional
+            Called once; returning False cancels.
+
+        Raises
+        ------
+        SettingError
+            If the surface lies nowhere above the rock.
+        Cancelled
+        """
+        level = self._profile_in_rock("surface", surface)
+        return self._with_stage(replace(unerode_stage(self.domain, level, name, progress), age=age))
 
     def stratified(self, stratigraphy: Stratigraphy, interpretation: Interpretation) -> StratifiedRock:
         """The rock that the next stage starts from, divided into layers."""

@@ -29,7 +29,7 @@ from seiswidgets.geology.shared_stretches import follow, split_into_stretches
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.weights import Weights
 
-STRIP = "strip"
+STRIP, UNERODE, DECOMPACT = "strip", "unerode", "decompact"
 SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
 PERCENTS = (1, 50, 99)
 FINE, LEAST_POINTS = 0.25, 64  # a line is carried at points a quarter of the spacing apart, and at least this many

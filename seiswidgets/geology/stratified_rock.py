@@ -12,8 +12,9 @@ from seiswidgets.errors import PickError
 from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.decompaction import BurialMemory
 from seiswidgets.geology.findings import Finding
-from seiswidgets.geology.layers import Layers, layers_of
+from seiswidgets.geology.layers import WATER, Layers, layers_of
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.stage import STRIP
 from seiswidgets.geology.stratigraphy import Stratigraphy
 from seiswidgets.geology.surfaces import surface_line
 from seiswidgets.geology.transfer import carried_boundaries
@@ -54,7 +55,14 @@ class StratifiedRock:
         """The layers after the stages so far."""
         pieces = {index: self.picks.bed_lines(horizon) for index, horizon in self.tops.items()}
         faults = fault_lines_of(self.picks, self.interpretation.faults)
-        return layers_of(self.picks.domain, pieces, faults, len(self.stratigraphy.layers))
+        return layers_of(self.picks.domain, pieces, faults, len(self.stratigraphy.layers), self._youngest)
+
+    @property
+    def _youngest(self) -> int:
+        """Index of the youngest layer that is left; water if there may be some above it."""
+        stripped = [stage.outcome.picks[0] for stage in self.picks.stages if stage.kind == STRIP]
+        left = [index for index, layer in enumerate(self.stratigraphy.layers) if layer.top in stripped]
+        return max(left, default=WATER if 0 in self.tops else 0)
 
     @property
     def notes(self) -> tuple[Finding, ...]:
