@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import traitlets
-from ipywidgets import Box, Layout, Tab, VBox, Widget
+from ipywidgets import Box, Layout, Tab, VBox, Widget, jslink
 from traitlets import Bool, Bunch, Instance, Tuple, dlink, link, validate
 
 from seiswidgets.geology import validation
@@ -38,6 +38,7 @@ from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList
 from seiswidgets.widgets.panels.weight_sliders import WeightSliders
 from seiswidgets.widgets.picker import Picker
+from seiswidgets.widgets.stage_strip import StageStrip
 from seiswidgets.widgets.status_bar import StatusBar
 from seiswidgets.widgets.timeline import Timeline
 from seiswidgets.widgets.workspace import Workspace
@@ -83,7 +84,9 @@ class RestorationApp(WithParts, VBox):
         The newest restoration on the full mesh. All attributes may be set, and observed.
     start_page : StartPage or None
         None once a section is open.
-    panes, picker, histogram, sliders, timeline : LinkedPanes, Picker, DeformationHistogram, WeightSliders, Timeline
+    panes, picker, histogram, sliders : LinkedPanes, Picker, DeformationHistogram, WeightSliders
+        Parts of the app.
+    timeline, strip : Timeline, StageStrip
         Parts of the app.
 
     Raises
@@ -234,7 +237,8 @@ class RestorationApp(WithParts, VBox):
         self.picker.attach(self.panes.restored)
         self.histogram = DeformationHistogram()
         self.solving = SolverControls(workspace)
-        self.timeline = Timeline()
+        self.timeline, self.strip = Timeline(), StageStrip(self.panes.picture)
+        self._strip_link = jslink((self.timeline.slider, "value"), (self.strip, "frame"))
         self.status = StatusBar(self.restore, self.cancel)
         self.reports = Reports()
         self.divider, self.maximise_button = Divider(), MaximiseButton()
@@ -251,7 +255,7 @@ class RestorationApp(WithParts, VBox):
         )
 
     def _arrange(self) -> list[Widget]:
-        below = Box([VBox([self.timeline, self.histogram, self.session_bar.news]), self.tabs])
+        below = Box([VBox([self.timeline, self.strip, self.histogram, self.session_bar.news]), self.tabs])
         below.add_class("seiswidgets-below")
         self.picker.toolbar.children += (self.status.buttons, self.maximise_button)
         self.panes.foot.children = (self.picker.click_line, self.panes.readout)
@@ -269,6 +273,7 @@ class RestorationApp(WithParts, VBox):
         for name in ("brush", "span"):
             link((self.histogram, name), (self.panes, name))
         workspace.observe(lambda change: self.reports.show(change.new), "restoration")
+        workspace.observe(lambda change: self.strip.show(change.new), "restoration")
         workspace.observe(self._take_section, "document")
         self.panes.on_reading(self._mark)
         self.picker.on_finding(self._open_finding)

@@ -60,23 +60,23 @@ def test_the_picks_are_those_of_the_stages_unless_others_are_given(path):
     start = sw.Restoration(case.section, spacing=150)
     unfaulted = start.unfault(case.interpretation.faults, case.interpretation.horizons, fixed=case.fixed)
     _, own = written(path, unfaulted)
-    strokes = own["strokes"]["original"]
+    strokes = own["strokes"][0]
     assert {stroke["label"] for stroke in strokes} == {"F1", "H1", "H2", "H3", ""}
     np.testing.assert_allclose(stroke_points(strokes[0]), case.interpretation.faults[0].points, atol=0.01)
-    horizon = stroke_points(own["strokes"]["restored"][1])
+    horizon = stroke_points(own["strokes"][1][1])
     origins = unfaulted.to_original(horizon[np.isfinite(horizon).all(axis=1)])
     first = case.interpretation.horizons[0].pieces[0]
     assert np.abs(origins[:, 1] - np.interp(origins[:, 0], *first.T)).max() < 1.0
     few = sw.Interpretation(case.interpretation.faults)
     _, given = written(path, unfaulted, few, colours={("fault", "F1"): "#123456"})
-    assert [stroke["colour"] for stroke in given["strokes"]["original"]] == ["#123456"]
+    assert [stroke["colour"] for stroke in given["strokes"][0]] == ["#123456"]
 
 
 def test_names_and_titles_are_text(path):
     text, state = written(path, restored(True), title="<b>Mine</b> & yours")
     assert "<title>&lt;b&gt;Mine&lt;/b&gt; &amp; yours</title>" in text
     assert NAUGHTY not in text
-    assert NAUGHTY in {stroke["label"] for stroke in state["strokes"]["original"]}
+    assert NAUGHTY in {stroke["label"] for stroke in state["strokes"][0]}
     assert "Data: &lt;b&gt;us&lt;/b&gt;" in text
     assert state["height"] == "two-way time"
 
@@ -91,7 +91,7 @@ def test_it_refers_to_nothing_outside_and_says_what_made_it(path):
 def test_without_stages_it_shows_the_section(path):
     text, state = written(path, sw.Restoration(restored().original))
     assert "Nothing has been restored yet." in text
-    assert (state["stages"], state["strokes"]["original"]) == ([], [])
+    assert (state["stages"], state["strokes"]) == ([], [[]])
 
 
 def test_a_large_section_is_averaged(path):

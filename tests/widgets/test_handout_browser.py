@@ -116,7 +116,7 @@ def test_time_moves_the_rock_and_the_picks_and_play_ends_at_the_end(handout):
     slider = page.page.get_by_role("slider", name="Time")
     assert slider.get_attribute("aria-valuetext") == "present day"
     slider.press("ArrowRight")
-    assert slider.get_attribute("aria-valuetext") == "unfault 2%"
+    assert slider.get_attribute("aria-valuetext").startswith("unfaulting ")
     assert page.pixels("restored") not in (present, end)
     slider.press("End")
     slider.press("PageDown")

@@ -1,5 +1,6 @@
 """The data of a handout: what its panes receive from a kernel in the app."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.pick_colours import PickColours, pick_colours
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.scenes import action, scenes
 from seiswidgets.interaction.colour import Colouring, RatioColouring
 from seiswidgets.interaction.live_state import TextureSource, colours_state, grid_state, stage_state
 from seiswidgets.interaction.overlay import Stroke
@@ -36,7 +38,8 @@ def handout_state(
         "grid": grid_state(section),
         "texture": source.whole,
         "stages": [stage_state(section, stage) for stage in restored.stages],
-        "names": [stage.kind for stage in restored.stages],
+        "names": [action(stage) for stage in restored.stages],
+        "scenes": [{"count": scene.count, "label": scene.label} for scene in scenes(restored.stages)],
         "colours": colours_state(colouring, source.scale),
         "ratios": {"palette": ratios.palette().tobytes(), "span": ratios.span, "axis": ratio_axis(ratios)},
         "frame": list(frame),
@@ -44,11 +47,14 @@ def handout_state(
         "units": [section.x_unit, section.z_unit],
         "height": "two-way time" if section.is_time else "depth",
         "label": section.name or "seismic section",
-        "strokes": {
-            "original": _strokes(interpretation, colours, PaneProjection(view)),
-            "restored": _strokes(interpretation, colours, PaneProjection(view, restored)),
-        },
+        "strokes": [_strokes(interpretation, colours, PaneProjection(view, step)) for step in _steps(restored)],
     }
+
+
+def _steps(restored: Restoration) -> list[Restoration | None]:
+    """The restoration after each number of stages, None at first: a pick may end with the rock that a stage removes."""
+    stages = restored.stages
+    return [None, *(replace(restored, stages=stages[:count]) for count in range(1, len(stages) + 1))]
 
 
 def rock_frame(restored: Restoration) -> Window:

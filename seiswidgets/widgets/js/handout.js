@@ -117,12 +117,13 @@ async function start() {
   let timeline = null;
   const panes = new Panes(state, () => timeline?.toggle());
   const deformation = isRestored ? showDeformation(state, panes) : null;
-  if (isRestored)
-    timeline = new Timeline(find("time"), state.names, (frame) => {
+  if (isRestored) {
+    timeline = new Timeline(find("time"), state.names, state.scenes, (frame) => {
       panes.picture.set("frame", frame);
       deformation?.follow();
     });
-  else {
+    timeline.strip.draw(panes.picture.get("picture"));
+  } else {
     find("restored-title").textContent = "Not restored yet";
     find("deformation").hidden = true;
   }

@@ -542,14 +542,15 @@ var LiveChain = class {
    *
    * @param {Point} point
    * @param {number} time
+   * @param {number} [end] number of stages after which the point is given
    */
-  placed(point, time) {
+  placed(point, time, end = this.stages.length) {
     const stages = this.stagesAt(time);
     let at = (
       /** @type {Point | null} */
       point
     );
-    for (let index = this.stages.length - 1; index >= 0 && at; index--) {
+    for (let index = end - 1; index >= 0 && at; index--) {
       const { toOriginal } = this.stages[index];
       const triangle = toOriginal.finder.find(at.x, at.z);
       if (triangle < 0) return null;
@@ -771,9 +772,10 @@ var Picture = class {
    * Where a point of the restored section is at the present time; null if it has no place.
    *
    * @param {Point} point
+   * @param {number} [end] number of stages after which the point is given
    */
-  placed(point) {
-    const placed = this.chain.placed(this.toSamples(point), this.time);
+  placed(point, end) {
+    const placed = this.chain.placed(this.toSamples(point), this.time, end);
     return placed && this.fromSamples(placed);
   }
   get isAtEnd() {
@@ -1594,6 +1596,7 @@ var LivePane = class {
    */
   constructor(model, el, requestDraw) {
     this.isRestored = model.get("restored");
+    this.layer = model;
     this.requestDraw = requestDraw;
     this.last = { time: 0, start: -Infinity, took: 0 };
     this.refining = void 0;
@@ -1732,7 +1735,7 @@ var LivePane = class {
     return carried && picture.fromSamples(carried);
   }
   /**
-   * Points of the restored section at the present time: the kernel sends them as they are at the end.
+   * Points of the restored section at the present time; they are sent as they are after some stage, or at the end.
    *
    * @template {[number, number] | null} Point
    * @param {Point[]} points
@@ -1740,9 +1743,10 @@ var LivePane = class {
    */
   places(points) {
     const { picture } = this;
-    if (!picture || !this.isRestored || picture.isAtEnd) return points;
+    const end = this.layer.get("stage") ?? picture?.chain.stages.length;
+    if (!picture || !this.isRestored || picture.time === end) return points;
     return points.map((point) => {
-      const placed = point && picture.placed({ x: point[0], z: point[1] });
+      const placed = point && picture.placed({ x: point[0], z: point[1] }, end);
       return placed && /** @type {Point} */
       [placed.x, placed.z];
     });
@@ -2448,6 +2452,125 @@ function tint({ palette, span }, brush, isShown) {
   return { palette: new DataView(colours.buffer), span, opacity: isShown || brush.length ? ALONE : 0 };
 }
 
+// stage_strip/strip.js
+var LEAST = 3;
+var SIZE = { width: 108, height: 60 };
+var SHARPNESS = 2;
+var REST2 = 300;
+var StageStrip = class {
+  /**
+   * @param {HTMLElement} el
+   * @param {(scene: Scene) => void} choose
+   */
+  constructor(el, choose) {
+    this.el = el;
+    this.choose = choose;
+    this.scenes = [];
+    this.buttons = [];
+    this.timer = void 0;
+    el.classList.add("seiswidgets-strip");
+    el.setAttribute("role", "toolbar");
+    el.setAttribute("aria-label", "Stages");
+    el.addEventListener("keydown", (event) => this.press(event));
+  }
+  /** @param {Scene[]} scenes */
+  show(scenes) {
+    this.scenes = scenes;
+    this.el.hidden = scenes.length < LEAST;
+    this.buttons = (this.el.hidden ? [] : scenes).map((scene, index) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.tabIndex = index ? -1 : 0;
+      const name = document.createElement("span");
+      name.textContent = scene.label;
+      button.title = scene.label;
+      button.append(document.createElement("canvas"), name);
+      button.addEventListener("click", () => this.choose(scene));
+      button.addEventListener("focus", () => this.makeReachable(button));
+      return button;
+    });
+    this.el.replaceChildren(...this.buttons);
+  }
+  /**
+   * Press the button of the scene that is shown, if one is.
+   *
+   * @param {number} time in stages
+   */
+  mark(time) {
+    this.buttons.forEach((button, index) => {
+      button.setAttribute("aria-pressed", String(this.scenes[index].count === time));
+    });
+  }
+  /**
+   * The arrow keys, Home and End move among the buttons: Tab leaves them.
+   *
+   * @param {KeyboardEvent} event
+   */
+  press(event) {
+    const now = this.buttons.findIndex((button) => button === document.activeElement);
+    const last = this.buttons.length - 1;
+    const target = { ArrowLeft: now - 1, ArrowRight: now + 1, Home: 0, End: last }[event.key];
+    if (now < 0 || target === void 0) return;
+    event.preventDefault();
+    this.buttons[Math.min(Math.max(target, 0), last)].focus();
+  }
+  /** @param {HTMLButtonElement} chosen */
+  makeReachable(chosen) {
+    for (const button of this.buttons) button.tabIndex = button === chosen ? 0 : -1;
+  }
+  /**
+   * Draw the pictures once nothing has changed for a moment.
+   *
+   * @param {() => Picture | null} getPicture
+   */
+  scheduleDraw(getPicture) {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.draw(getPicture()), REST2);
+  }
+  /** @param {Picture | null} picture */
+  draw(picture) {
+    const count = picture?.chain.stages.length ?? 0;
+    this.buttons.forEach((button, index) => {
+      const canvas = (
+        /** @type {HTMLCanvasElement} */
+        button.firstChild
+      );
+      if (picture && this.scenes[index].count <= count) drawThumbnail(canvas, picture, this.scenes[index].count);
+    });
+  }
+  stop() {
+    clearTimeout(this.timer);
+  }
+};
+function drawThumbnail(canvas, picture, count) {
+  const size = { width: SHARPNESS * SIZE.width, height: SHARPNESS * SIZE.height };
+  Object.assign(canvas, size);
+  const image = new ImageData(size.width, size.height);
+  const scene = picture.scene(true, [0, 1, 0, 1]);
+  drawSection(new Uint32Array(image.data.buffer), size, {
+    ...scene,
+    maps: picture.chain.maps(count, true),
+    window: rockWindow(picture),
+    deformation: { ...scene.deformation, opacity: 0 }
+  });
+  canvas.getContext("2d")?.putImageData(image, 0, 0);
+}
+function rockWindow(picture) {
+  const [rows, columns] = picture.grid.shape;
+  const window2 = [-0.5, columns - 0.5, -0.5, rows - 0.5];
+  for (const { after } of picture.chain.stages) {
+    for (let i = 0; i < after.length; i++) {
+      const side = 2 * (i % 2);
+      window2[side] = Math.min(window2[side], after[i]);
+      window2[side + 1] = Math.max(window2[side + 1], after[i]);
+    }
+  }
+  return (
+    /** @type {[number, number, number, number]} */
+    window2
+  );
+}
+
 // handout/timeline.js
 var FRAME_TIME = 30;
 var FRAMES = 60;
@@ -2461,9 +2584,10 @@ var Timeline = class {
   /**
    * @param {HTMLElement} el
    * @param {string[]} names of the stages
+   * @param {import("../stage_strip/strip.js").Scene[]} scenes
    * @param {(frame: number) => void} show
    */
-  constructor(el, names, show) {
+  constructor(el, names, scenes, show) {
     this.names = names;
     this.show = show;
     this.end = FRAMES * names.length;
@@ -2474,16 +2598,13 @@ var Timeline = class {
     this.slider = /** @type {HTMLInputElement} */
     element("input", range);
     this.moment = element("output", {});
-    this.stops = element("div", { class: "stops", role: "group", "aria-label": "Stages" });
-    ["present day", ...names].forEach((name, index) => {
-      const button = element("button", { type: "button" }, name);
-      button.addEventListener("click", () => this.stopAt(FRAMES * index));
-      this.stops.append(button);
-    });
+    const stops = element("div", {});
+    this.strip = new StageStrip(stops, ({ count }) => this.stopAt(FRAMES * count));
+    this.strip.show(scenes);
     this.playButton.addEventListener("click", () => this.toggle());
     this.slider.addEventListener("input", () => this.stopAt(this.slider.valueAsNumber));
     const track = element("div", { class: "track" });
-    track.append(this.slider, this.stops);
+    track.append(this.slider, stops);
     el.append(this.playButton, track, this.moment);
     this.draw();
   }
@@ -2528,9 +2649,7 @@ var Timeline = class {
     this.slider.value = String(this.frame);
     this.slider.setAttribute("aria-valuetext", this.text);
     this.moment.textContent = this.text;
-    [...this.stops.children].forEach((button, index) => {
-      button.setAttribute("aria-pressed", String(this.frame === FRAMES * index));
-    });
+    this.strip.mark(this.frame / FRAMES);
   }
 };
 
@@ -2645,6 +2764,7 @@ function roundTicks(low, high, least) {
 // handout/panes.js
 var PRINT_RATIO = 3;
 var MESH = 0.6;
+var NONE = [];
 var NAMES = (
   /** @type {const} */
   ["original", "restored"]
@@ -2684,6 +2804,7 @@ var Panes = class {
     this.viewport = new Viewport(limits, { width: 900, height: 600 });
     this.navigation = new Navigation();
     this.readers = [];
+    this.hasPicks = true;
     this.original = this.createPane("original");
     this.restored = this.createPane("restored");
     for (const [pane, other] of [
@@ -2694,6 +2815,8 @@ var Panes = class {
         other.model.set("linked", pane.model.get("carried"));
         this.read(pane);
       });
+    this.drawPicks();
+    this.picture.on("change:frame", () => this.drawPicks());
   }
   /**
    * @param {Name} name
@@ -2701,7 +2824,7 @@ var Panes = class {
    */
   createPane(name) {
     const traits = {
-      ...{ axes: {}, window: this.state.frame, size: [], strokes: this.state.strokes[name], marks: [], rubber: [] },
+      ...{ axes: {}, window: this.state.frame, size: [], strokes: [], marks: [], rubber: [] },
       ...{ mesh: {}, mesh_opacity: 0, chain: [], carried: {}, linked: {}, hotkeys: [...KEYS, " "] },
       ...{ picture: "IPY_MODEL_picture", restored: name === "restored" },
       label: `${name === "restored" ? "Restored" : "Present day"}: ${this.state.label}. Arrows pan, + and - zoom, 0 fits`
@@ -2746,7 +2869,16 @@ var Panes = class {
   }
   /** @param {boolean} isShown */
   showPicks(isShown) {
-    for (const name of NAMES) this[name].model.set("strokes", isShown ? this.state.strokes[name] : []);
+    this.hasPicks = isShown;
+    this.drawPicks();
+  }
+  /** Show the lines as they are after the stage that is being carried out; the layer moves them back from there. */
+  drawPicks() {
+    const { strokes } = this.state;
+    const count = Math.ceil(this.picture.get("picture").time);
+    this.restored.model.set("stage", count);
+    this.original.model.set("strokes", this.hasPicks ? strokes[0] : NONE);
+    this.restored.model.set("strokes", this.hasPicks ? strokes[count] : NONE);
   }
   /** @param {boolean} isShown */
   showMesh(isShown) {
@@ -3251,12 +3383,13 @@ async function start() {
   let timeline = null;
   const panes = new Panes(state, () => timeline?.toggle());
   const deformation = isRestored ? showDeformation(state, panes) : null;
-  if (isRestored)
-    timeline = new Timeline(find("time"), state.names, (frame) => {
+  if (isRestored) {
+    timeline = new Timeline(find("time"), state.names, state.scenes, (frame) => {
       panes.picture.set("frame", frame);
       deformation?.follow();
     });
-  else {
+    timeline.strip.draw(panes.picture.get("picture"));
+  } else {
     find("restored-title").textContent = "Not restored yet";
     find("deformation").hidden = true;
   }

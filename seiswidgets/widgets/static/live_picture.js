@@ -471,14 +471,15 @@ var LiveChain = class {
    *
    * @param {Point} point
    * @param {number} time
+   * @param {number} [end] number of stages after which the point is given
    */
-  placed(point, time) {
+  placed(point, time, end = this.stages.length) {
     const stages = this.stagesAt(time);
     let at = (
       /** @type {Point | null} */
       point
     );
-    for (let index = this.stages.length - 1; index >= 0 && at; index--) {
+    for (let index = end - 1; index >= 0 && at; index--) {
       const { toOriginal } = this.stages[index];
       const triangle = toOriginal.finder.find(at.x, at.z);
       if (triangle < 0) return null;
@@ -700,9 +701,10 @@ var Picture = class {
    * Where a point of the restored section is at the present time; null if it has no place.
    *
    * @param {Point} point
+   * @param {number} [end] number of stages after which the point is given
    */
-  placed(point) {
-    const placed = this.chain.placed(this.toSamples(point), this.time);
+  placed(point, end) {
+    const placed = this.chain.placed(this.toSamples(point), this.time, end);
     return placed && this.fromSamples(placed);
   }
   get isAtEnd() {

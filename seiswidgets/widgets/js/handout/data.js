@@ -1,7 +1,5 @@
 // The data in the page: JSON, and a block of bytes that it refers to.
 
-/** @typedef {[import("../pointer_layer/types.js").StrokeState[], import("../pointer_layer/types.js").StrokeState[]]} Strokes */
-
 /**
  * @typedef {object} State as made by widgets/handout/state.py
  * @property {import("../picture/types.js").Grid} grid
@@ -15,7 +13,8 @@
  * @property {[string, string]} units
  * @property {string} height
  * @property {string} label
- * @property {Record<"original" | "restored", import("../pointer_layer/types.js").StrokeState[]>} strokes
+ * @property {import("../stage_strip/strip.js").Scene[]} scenes
+ * @property {import("../pointer_layer/types.js").StrokeState[][]} strokes as they are after each number of stages
  */
 
 /**

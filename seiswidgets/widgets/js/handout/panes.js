@@ -11,6 +11,8 @@ import { Viewport } from "./viewport.js";
 
 const PRINT_RATIO = 3; // pixels of the picture to a css pixel on paper
 const MESH = 0.6; // opacity
+/** @type {import("../pointer_layer/types.js").StrokeState[]} */
+const NONE = [];
 const NAMES = /** @type {const} */ (["original", "restored"]);
 
 /** @typedef {import("./data.js").State} State */
@@ -50,6 +52,7 @@ export class Panes {
     this.navigation = new Navigation();
     /** @type {((point: Reading | null) => void)[]} */
     this.readers = [];
+    this.hasPicks = true;
     this.original = this.createPane("original");
     this.restored = this.createPane("restored");
     for (const [pane, other] of [
@@ -60,6 +63,8 @@ export class Panes {
         other.model.set("linked", pane.model.get("carried"));
         this.read(pane);
       });
+    this.drawPicks();
+    this.picture.on("change:frame", () => this.drawPicks());
   }
 
   /**
@@ -68,7 +73,7 @@ export class Panes {
    */
   createPane(name) {
     const traits = {
-      ...{ axes: {}, window: this.state.frame, size: [], strokes: this.state.strokes[name], marks: [], rubber: [] },
+      ...{ axes: {}, window: this.state.frame, size: [], strokes: [], marks: [], rubber: [] },
       ...{ mesh: {}, mesh_opacity: 0, chain: [], carried: {}, linked: {}, hotkeys: [...KEYS, " "] },
       ...{ picture: "IPY_MODEL_picture", restored: name === "restored" },
       label: `${name === "restored" ? "Restored" : "Present day"}: ${this.state.label}. Arrows pan, + and - zoom, 0 fits`,
@@ -106,7 +111,17 @@ export class Panes {
 
   /** @param {boolean} isShown */
   showPicks(isShown) {
-    for (const name of NAMES) this[name].model.set("strokes", isShown ? this.state.strokes[name] : []);
+    this.hasPicks = isShown;
+    this.drawPicks();
+  }
+
+  /** Show the lines as they are after the stage that is being carried out; the layer moves them back from there. */
+  drawPicks() {
+    const { strokes } = this.state;
+    const count = Math.ceil(this.picture.get("picture").time);
+    this.restored.model.set("stage", count);
+    this.original.model.set("strokes", this.hasPicks ? strokes[0] : NONE);
+    this.restored.model.set("strokes", this.hasPicks ? strokes[count] : NONE);
   }
 
   /** @param {boolean} isShown */

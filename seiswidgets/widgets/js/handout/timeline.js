@@ -1,5 +1,7 @@
 // The time between the present day and the restored section: Play, a slider, and a button for each stage.
 
+import { StageStrip } from "../stage_strip/strip.js";
+
 const FRAME_TIME = 30; // ms
 export const FRAMES = 60; // per stage
 
@@ -20,9 +22,10 @@ export class Timeline {
   /**
    * @param {HTMLElement} el
    * @param {string[]} names of the stages
+   * @param {import("../stage_strip/strip.js").Scene[]} scenes
    * @param {(frame: number) => void} show
    */
-  constructor(el, names, show) {
+  constructor(el, names, scenes, show) {
     this.names = names;
     this.show = show;
     this.end = FRAMES * names.length;
@@ -32,16 +35,13 @@ export class Timeline {
     const range = { type: "range", min: "0", max: String(this.end), step: "1", "aria-label": "Time" };
     this.slider = /** @type {HTMLInputElement} */ (element("input", range));
     this.moment = element("output", {});
-    this.stops = element("div", { class: "stops", role: "group", "aria-label": "Stages" });
-    ["present day", ...names].forEach((name, index) => {
-      const button = element("button", { type: "button" }, name);
-      button.addEventListener("click", () => this.stopAt(FRAMES * index));
-      this.stops.append(button);
-    });
+    const stops = element("div", {});
+    this.strip = new StageStrip(stops, ({ count }) => this.stopAt(FRAMES * count));
+    this.strip.show(scenes);
     this.playButton.addEventListener("click", () => this.toggle());
     this.slider.addEventListener("input", () => this.stopAt(this.slider.valueAsNumber));
     const track = element("div", { class: "track" });
-    track.append(this.slider, this.stops);
+    track.append(this.slider, stops);
     el.append(this.playButton, track, this.moment);
     this.draw();
   }
@@ -91,8 +91,6 @@ export class Timeline {
     this.slider.value = String(this.frame);
     this.slider.setAttribute("aria-valuetext", this.text);
     this.moment.textContent = this.text;
-    [...this.stops.children].forEach((button, index) => {
-      button.setAttribute("aria-pressed", String(this.frame === FRAMES * index));
-    });
+    this.strip.mark(this.frame / FRAMES);
   }
 }

@@ -147,11 +147,12 @@ export class LiveChain {
    *
    * @param {Point} point
    * @param {number} time
+   * @param {number} [end] number of stages after which the point is given
    */
-  placed(point, time) {
+  placed(point, time, end = this.stages.length) {
     const stages = this.stagesAt(time);
     let at = /** @type {Point | null} */ (point);
-    for (let index = this.stages.length - 1; index >= 0 && at; index--) {
+    for (let index = end - 1; index >= 0 && at; index--) {
       const { toOriginal } = this.stages[index];
       const triangle = toOriginal.finder.find(at.x, at.z);
       if (triangle < 0) return null;

@@ -104,9 +104,10 @@ export class Picture {
    * Where a point of the restored section is at the present time; null if it has no place.
    *
    * @param {Point} point
+   * @param {number} [end] number of stages after which the point is given
    */
-  placed(point) {
-    const placed = this.chain.placed(this.toSamples(point), this.time);
+  placed(point, end) {
+    const placed = this.chain.placed(this.toSamples(point), this.time, end);
     return placed && this.fromSamples(placed);
   }
 

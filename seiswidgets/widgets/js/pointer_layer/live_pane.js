@@ -36,6 +36,7 @@ export class LivePane {
    */
   constructor(model, el, requestDraw) {
     this.isRestored = model.get("restored");
+    this.layer = model;
     this.requestDraw = requestDraw;
     this.last = { time: 0, start: -Infinity, took: 0 };
     /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -188,7 +189,7 @@ export class LivePane {
   }
 
   /**
-   * Points of the restored section at the present time: the kernel sends them as they are at the end.
+   * Points of the restored section at the present time; they are sent as they are after some stage, or at the end.
    *
    * @template {[number, number] | null} Point
    * @param {Point[]} points
@@ -196,9 +197,10 @@ export class LivePane {
    */
   places(points) {
     const { picture } = this;
-    if (!picture || !this.isRestored || picture.isAtEnd) return points;
+    const end = this.layer.get("stage") ?? picture?.chain.stages.length;
+    if (!picture || !this.isRestored || picture.time === end) return points;
     return points.map((point) => {
-      const placed = point && picture.placed({ x: point[0], z: point[1] });
+      const placed = point && picture.placed({ x: point[0], z: point[1] }, end);
       return placed && /** @type {Point} */ ([placed.x, placed.z]);
     });
   }
