@@ -12,9 +12,21 @@ from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection
 DRAFT_LINE = "draft line"  # label of an edit of the draft line alone
 
 
+FIRST_NAME = "A"  # of a hypothesis
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """A hypothesis: picks and a plan, with a name."""
+
+    name: str
+    drawing: Drawing
+    plan: Plan
+
+
 @dataclass(frozen=True)
 class Document:
-    """Everything that an edit can change: a section, its picks, and the plan to restore it.
+    """Everything that an edit can change: a section, its picks and the plan to restore it, and other hypotheses.
 
     Attributes
     ----------
@@ -23,12 +35,19 @@ class Document:
     plan : Plan
     source : SectionSource or None
         Origin of the section; None for a section made in memory.
+    name : str
+        Of the hypothesis that drawing and plan make.
+    before, after : tuple of Alternative
+        The other hypotheses, in their order; see `alternatives`.
     """
 
     section: Section
     drawing: Drawing = field(default_factory=Drawing)
     plan: Plan = field(default_factory=Plan)
     source: Any = None  # a value to this package, which does not know files
+    name: str = FIRST_NAME
+    before: tuple[Alternative, ...] = ()
+    after: tuple[Alternative, ...] = ()
 
 
 @dataclass(frozen=True)

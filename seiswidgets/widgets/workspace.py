@@ -15,7 +15,8 @@ from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.document import Document, EditHistory
+from seiswidgets.interaction.alternatives import alternatives, switched
+from seiswidgets.interaction.document import FIRST_NAME, Alternative, Document, EditHistory
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.session.sources import FILE, SectionSource
 
@@ -97,12 +98,31 @@ class Workspace(HasTraits):
         """Change fields of the document as one edit, named in the tooltip of Undo; no change is no edit."""
         self.history.edit(label, **changes)
 
+    def edit_hypotheses(self, label: str, change: Callable[[Document], Document]) -> None:
+        """Change the hypotheses as one edit, by a function of `alternatives`."""
+        self.edit(label, **vars(change(self.document)))
+
+    def step_hypothesis(self, step: int) -> None:
+        """Show the next hypothesis (1) or the one before (-1); after the last one comes the first."""
+        document = self.document
+        index = (len(document.before) + step) % len(alternatives(document))
+        if index != len(document.before):
+            self.edit_hypotheses(f"show {alternatives(document)[index].name}", lambda old: switched(old, index))
+
     def change_plan(self, label: str, **choices: Any) -> None:
         """Change choices of the plan as one edit."""
         self.edit(label, plan=replace(self.plan, **choices))
 
     def open(
-        self, section: Section, drawing: Drawing, *, source: SectionSource | None = None, plan: Plan | None = None
+        self,
+        section: Section,
+        drawing: Drawing,
+        *,
+        source: SectionSource | None = None,
+        plan: Plan | None = None,
+        name: str = "",
+        before: tuple[Alternative, ...] = (),
+        after: tuple[Alternative, ...] = (),
     ) -> None:
         """Continue with another section and its picks, as one edit.
 
@@ -115,6 +135,8 @@ class Workspace(HasTraits):
         plan : Plan, optional
             If left out, the present steps and weights on a mesh of default spacing; held points stay if they lie on
             the new section, and so does a regional level.
+        name, before, after
+            The hypothesis and the others, if there are any; see `Document`.
 
         Raises
         ------
@@ -122,7 +144,8 @@ class Workspace(HasTraits):
             If a session cannot save the edits of the present section.
         """
         plan = plan or replace(self.plan, spacing=None, **self._kept_holds(section))
-        self.edit(f"open {_title(section, source)}", section=section, drawing=drawing, source=source, plan=plan)
+        opened = Document(section, drawing, plan, source, name or FIRST_NAME, before, after)
+        self.edit(f"open {_title(section, source)}", **vars(opened))
 
     def as_drawn(self, interpretation: Interpretation) -> Interpretation:
         """Interpretation that results from loading one; loading the present one changes nothing."""
