@@ -13,6 +13,8 @@ from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.validation import checked_kind
 
+FIRST_NAME = "A"  # of a section's only hypothesis
+
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
@@ -34,7 +36,7 @@ class Hypothesis:
     section: Section
     interpretation: Interpretation
     plan: Plan = field(default_factory=Plan)
-    name: str = "hypothesis"
+    name: str = FIRST_NAME
 
     def __post_init__(self) -> None:
         for name, kind in (("section", Section), ("interpretation", Interpretation), ("plan", Plan), ("name", str)):

@@ -5,14 +5,12 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
+from seiswidgets.geology.hypothesis import FIRST_NAME
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection
 
 DRAFT_LINE = "draft line"  # label of an edit of the draft line alone
-
-
-FIRST_NAME = "A"  # of a hypothesis
 
 
 @dataclass(frozen=True)

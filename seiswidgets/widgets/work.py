@@ -18,7 +18,8 @@ from seiswidgets.io.session.file import session_document, session_fields
 from seiswidgets.io.session.session import Session
 from seiswidgets.io.session.sources import SectionSource
 from seiswidgets.widgets.app import RestorationApp
-from seiswidgets.widgets.files.session_bar import drawing_of, session_of
+from seiswidgets.widgets.files.session_bar import drawing_of, others_of, session_of
+from seiswidgets.widgets.workspace import OtherHypotheses
 
 KEPT = Path("the drawing kept by the browser")  # stands for a file's path in error messages
 
@@ -33,21 +34,26 @@ class Work:
     plan : Plan
     settings : dict
         Traits of the app and its parts, by name.
+    others : dict
+        Name of the hypothesis that drawing and plan make, and the other ones; see `Document`.
     """
 
     drawing: Drawing = field(default_factory=Drawing)
     plan: Plan = field(default_factory=Plan)
     settings: dict[str, Any] = field(default_factory=dict)
+    others: OtherHypotheses = field(default_factory=lambda: OtherHypotheses())
 
     @classmethod
     def of(cls, app: RestorationApp) -> "Work":
         """Present work in an app."""
         settings = {name: getattr(owner, name) for owner, name in _settings_of(app)}
-        return cls(app.workspace.drawing, app.workspace.plan, settings)
+        document = app.workspace.document
+        others: OtherHypotheses = {"name": document.name, "before": document.before, "after": document.after}
+        return cls(document.drawing, document.plan, settings, others)
 
     def put(self, app: RestorationApp, section: Section, source: SectionSource | None) -> None:
         """Continue this work in an app; undo brings back what was drawn there before."""
-        app.workspace.open(section, self.drawing, source=source, plan=self.plan)
+        app.workspace.open(section, self.drawing, source=source, plan=self.plan, **self.others)
         for owner, name in _settings_of(app):
             if name in self.settings:
                 with contextlib.suppress(SeiswidgetsError, TraitError):  # another version wrote it: keep the app's own
@@ -61,7 +67,7 @@ class Work:
         PickError
             If a name contains an unpaired surrogate.
         """
-        session = session_of(Document(section, self.drawing, self.plan), source, sha256)
+        session = session_of(Document(section, self.drawing, self.plan, **self.others), source, sha256)
         line = self.drawing.draft
         return json_text(
             {
@@ -91,7 +97,7 @@ class Work:
         points = [*(line.points if line else ()), *([session.fixed] if session.fixed else []), *session.plan.pins]
         if not (drawing.lies_on(section) and (not points or section.contains(points).all())):
             raise DataError(f"{KEPT} must lie on the section, but reaches beyond it; start over")
-        return cls(drawing, session.plan, entry.optional("settings", _settings, {}))
+        return cls(drawing, session.plan, entry.optional("settings", _settings, {}), others_of(session))
 
 
 def observe_work(app: RestorationApp, callback: Callable[[Bunch], None]) -> None:

@@ -6,7 +6,7 @@ Views and panels read it, observe it, and send it edits; none of them keeps a co
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 from traitlets import Bool, Bunch, HasTraits, Instance, observe, validate
 
@@ -16,9 +16,17 @@ from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.interaction.alternatives import alternatives, switched
-from seiswidgets.interaction.document import FIRST_NAME, Alternative, Document, EditHistory
+from seiswidgets.interaction.document import Alternative, Document, EditHistory
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.session.sources import FILE, SectionSource
+
+
+class OtherHypotheses(TypedDict, total=False):
+    """Fields of a document: the name of its hypothesis, and the others."""
+
+    name: str
+    before: tuple[Alternative, ...]
+    after: tuple[Alternative, ...]
 
 
 class Workspace(HasTraits):
@@ -120,9 +128,7 @@ class Workspace(HasTraits):
         *,
         source: SectionSource | None = None,
         plan: Plan | None = None,
-        name: str = "",
-        before: tuple[Alternative, ...] = (),
-        after: tuple[Alternative, ...] = (),
+        **others: Unpack[OtherHypotheses],
     ) -> None:
         """Continue with another section and its picks, as one edit.
 
@@ -144,7 +150,7 @@ class Workspace(HasTraits):
             If a session cannot save the edits of the present section.
         """
         plan = plan or replace(self.plan, spacing=None, **self._kept_holds(section))
-        opened = Document(section, drawing, plan, source, name or FIRST_NAME, before, after)
+        opened = Document(section, drawing, plan, source, **others)
         self.edit(f"open {_title(section, source)}", **vars(opened))
 
     def as_drawn(self, interpretation: Interpretation) -> Interpretation:

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError, Text
 from seiswidgets.geology.bodies import SALT
+from seiswidgets.geology.hypothesis import FIRST_NAME
 from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends
 from seiswidgets.geology.plan import Plan, Step
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.weights import Weights
 from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
-from seiswidgets.io.session.saved_picks import SavedPick
+from seiswidgets.io.session.saved_picks import SavedHypothesis, SavedPick
 from seiswidgets.io.session.sources import FILE, SectionSource, relative_path, section_path
 from seiswidgets.io.session.velocities import read_velocity, velocity_as_json
 
@@ -31,15 +32,23 @@ Arguments = ParamSpec("Arguments")
 Value = TypeVar("Value")
 
 
-class SessionFields(TypedDict):
-    """Fields of a `Session`."""
+class HypothesisFields(TypedDict):
+    """Fields that a `Session` and a `SavedHypothesis` have in common."""
 
-    source: SectionSource
-    sha256: str | None
     faults: tuple[SavedPick, ...]
     horizons: tuple[SavedPick, ...]
     bodies: tuple[SavedPick, ...]
     plan: Plan
+
+
+class SessionFields(HypothesisFields):
+    """Fields of a `Session`."""
+
+    source: SectionSource
+    sha256: str | None
+    name: str
+    before: tuple[SavedHypothesis, ...]
+    after: tuple[SavedHypothesis, ...]
     written_by: str
 
 
@@ -81,23 +90,38 @@ def session_document(session: "Session", path: Path) -> dict[str, Any]:
     )
     if source.velocity is not None:
         origin |= {"velocity": velocity_as_json(source.velocity), "dz": source.dz}
-    return {
+    document = {
         "format": FORMAT,
         "version": VERSION,
         "written_by": f"seiswidgets {__version__}",
         "section": {"source": {"kind": source.kind, **origin}, "sha256": session.sha256},
+        **_hypothesis_document(session),
+    }
+    if session.before or session.after or session.name != FIRST_NAME:
+        before, after = (
+            [{"name": one.name, **_hypothesis_document(one)} for one in others]
+            for others in (session.before, session.after)
+        )
+        document["hypotheses"] = [*before, {"name": session.name}, *after]
+    return document
+
+
+def _hypothesis_document(hypothesis: "Session | SavedHypothesis") -> dict[str, Any]:
+    """Picks and plan as plain values."""
+    plan = hypothesis.plan
+    return {
         "picks": {
-            "faults": [{"name": pick.name, "points": pick.pieces[0], **_style(pick)} for pick in session.faults],
-            "horizons": [{"name": pick.name, "pieces": pick.pieces, **_style(pick)} for pick in session.horizons],
+            "faults": [{"name": pick.name, "points": pick.pieces[0], **_style(pick)} for pick in hypothesis.faults],
+            "horizons": [{"name": pick.name, "pieces": pick.pieces, **_style(pick)} for pick in hypothesis.horizons],
             "bodies": [
                 {"name": pick.name, "kind": pick.body, "points": pick.pieces[0], **_style(pick)}
-                for pick in session.bodies
+                for pick in hypothesis.bodies
             ],
-            "fixed": session.fixed,
-            "pins": session.plan.pins,
-            "regional": session.plan.regional,
+            "fixed": plan.fixed,
+            "pins": plan.pins,
+            "regional": plan.regional,
         },
-        "plan": {name: value for name, value in asdict(session.plan).items() if name not in NOT_IN_PLAN},
+        "plan": {name: value for name, value in asdict(plan).items() if name not in NOT_IN_PLAN},
     }
 
 
@@ -125,16 +149,44 @@ def read_session_fields(path: Path, allow_outside: bool) -> SessionFields:
 def session_fields(entry: Entry, allow_outside: bool) -> SessionFields:
     """The fields of the session in a parsed document; errors as for `read_session_fields`."""
     document = _migrated(entry)
-    section, picks = document["section"], document["picks"]
+    section, own = document["section"], _hypothesis(document)
+    name, before, after = document.optional("hypotheses", _hypotheses, (FIRST_NAME, (), ()))
     return {
         "source": _source(section["source"], allow_outside),
         "sha256": section.optional("sha256", _sha256, None),
+        **own,
+        "name": name,
+        "before": before,
+        "after": after,
+        "written_by": document.optional("written_by", Entry.text, ""),
+    }
+
+
+def _hypothesis(entry: Entry) -> HypothesisFields:
+    picks = entry["picks"]
+    return {
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
         "bodies": picks.optional("bodies", _faults, ()),
-        "plan": _with_holds(document.optional("plan", _plan, Plan()), picks),
-        "written_by": document.optional("written_by", Entry.text, ""),
+        "plan": _with_holds(entry.optional("plan", _plan, Plan()), picks),
     }
+
+
+def _hypotheses(entry: Entry) -> tuple[str, tuple[SavedHypothesis, ...], tuple[SavedHypothesis, ...]]:
+    """Name of the session's own hypothesis, which is the one without picks, and those before and after it."""
+    entries = list(entry.items())
+    own = [index for index, one in enumerate(entries) if one.members().get("picks") is None]
+    if len(own) != 1:
+        raise entry.error("a list of hypotheses, of which one has no picks: the session's own")
+    names = [one["name"].text() for one in entries]
+    if len(set(names)) < len(names):
+        raise entry.error("a list of hypotheses, each with a name of its own")
+    others = [
+        _build(one, SavedHypothesis, name, **_hypothesis(one))
+        for index, (name, one) in enumerate(zip(names, entries, strict=True))
+        if index != own[0]
+    ]
+    return names[own[0]], tuple(others[: own[0]]), tuple(others[own[0] :])
 
 
 def _migrated(document: Entry) -> Entry:

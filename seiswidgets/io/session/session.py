@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from seiswidgets import __version__
-from seiswidgets.errors import DataError, Keyword, PickError
+from seiswidgets.errors import DataError, Keyword, SettingError
 from seiswidgets.geology.bodies import BODY
-from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation, usable
+from seiswidgets.geology.hypothesis import FIRST_NAME, Hypothesis
+from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
@@ -18,7 +19,7 @@ from seiswidgets.io.document import Point, check_file_size
 from seiswidgets.io.exports.sections import save_section
 from seiswidgets.io.files import user_path, write_file
 from seiswidgets.io.session.file import read_session_fields, session_as_json
-from seiswidgets.io.session.saved_picks import SavedPick, saved_pick
+from seiswidgets.io.session.saved_picks import SavedHypothesis, SavedPick, check_picks, saved_pick, usable_picks
 from seiswidgets.io.session.sources import FILE, SectionSource, section_sha256
 from seiswidgets.signatures import strict_keywords
 
@@ -38,13 +39,17 @@ class Session:
     written_by : str
         The version of seiswidgets that wrote it.
     bodies : tuple of SavedPick
+    name : str
+        Of the hypothesis that these picks and this plan make.
+    before, after : tuple of SavedHypothesis
+        The other hypotheses, in their order.
 
     Raises
     ------
     PickError
         If a fault or a body is not one line, or two picks of a kind have the same name.
     SettingError
-        If the source or the plan has the wrong type.
+        If the source or the plan has the wrong type, or two hypotheses have the same name.
 
     Examples
     --------
@@ -63,22 +68,19 @@ class Session:
     plan: Plan = field(default_factory=Plan)
     written_by: str = field(default=f"seiswidgets {__version__}", compare=False)
     bodies: tuple[SavedPick, ...] = ()
+    name: str = FIRST_NAME
+    before: tuple[SavedHypothesis, ...] = ()
+    after: tuple[SavedHypothesis, ...] = ()
 
     def __post_init__(self) -> None:
         checked_kind(self.source, SectionSource, "source")
         checked_kind(self.plan, Plan, "plan")
-        for picks in (self.faults, self.horizons, self.bodies):
-            names = [pick.name for pick in picks]
-            if len(set(names)) < len(names):
-                name = max(names, key=names.count)
-                raise PickError(f"two picks are called {name!r}; give each a name of its own", pick=name)
-        for kind, picks in ((FAULT, self.faults), (BODY, self.bodies)):
-            for pick in picks:
-                if len(pick.pieces) != 1:
-                    raise PickError(
-                        f"{kind} {pick.name!r} must be one line, but has {len(pick.pieces)}; give each line a name",
-                        pick=pick.name,
-                    )
+        check_picks(self.faults, self.horizons, self.bodies)
+        names = [self.name, *(other.name for other in (*self.before, *self.after))]
+        if len(set(names)) < len(names):
+            raise SettingError(
+                f"two hypotheses are called {max(names, key=names.count)!r}; give each a name of its own"
+            )
 
     @classmethod
     def of(
@@ -160,10 +162,13 @@ class Session:
         return [message for *_, message in self._usable_picks()[1]]
 
     def _usable_picks(self) -> tuple[Interpretation, tuple]:
-        kinds = ((FAULT, self.faults), (HORIZON, self.horizons), (BODY, self.bodies))
-        return usable(
-            (kind, pick.name, pick.pieces, pick.use, pick.ends, pick.body) for kind, picks in kinds for pick in picks
-        )
+        return usable_picks(self.faults, self.horizons, self.bodies)
+
+    def hypotheses(self, section: Section) -> tuple[Hypothesis, ...]:
+        """All hypotheses of the session on its section, in their order, its own among them."""
+        own = Hypothesis(section, self.interpretation, self.plan, self.name)
+        before, after = ([one.on(section) for one in others] for others in (self.before, self.after))
+        return *before, own, *after
 
     def open_section(self, *, allow_changed: bool = False) -> Section:
         """Open the section from its source.

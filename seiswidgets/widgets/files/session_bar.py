@@ -15,19 +15,19 @@ from seiswidgets.errors import DataError, SettingError, Text
 from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.picks import FAULT, HORIZON
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.document import Document
+from seiswidgets.interaction.document import Alternative, Document
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.files import user_path, write_file
 from seiswidgets.io.session.autosave import Autosave, Version, find_versions, next_version, numbered_files, set_aside
 from seiswidgets.io.session.ownership import Owner, claim, other_owner, release
-from seiswidgets.io.session.saved_picks import SavedPick
+from seiswidgets.io.session.saved_picks import SavedHypothesis, SavedPick
 from seiswidgets.io.session.session import Session, SessionWithSection, source_beside
 from seiswidgets.io.session.sources import FILE, SectionSource, section_path, section_sha256
 from seiswidgets.widgets.files.labels import counted
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.jobs import Job, JobRunner
 from seiswidgets.widgets.messages import in_words
-from seiswidgets.widgets.workspace import Workspace
+from seiswidgets.widgets.workspace import OtherHypotheses, Workspace
 
 OPEN, PICKS_ONLY, START_ANEW = "Open", "Picks only", "Start anew"
 READ, BACK = "Read it", "Back"
@@ -292,7 +292,7 @@ class SessionBar(VBox):
         """Show a version's work on a section, and continue with it."""
         path, session = self.path, version.session
         if path is not None:
-            self.workspace.open(section, drawing_of(session), source=source, plan=session.plan)
+            self.workspace.open(section, drawing_of(session), source=source, plan=session.plan, **others_of(session))
             self._begin(path)
             self.notice.hint(f"Opened {version.path}.")
 
@@ -343,7 +343,23 @@ def _to_save(document: Document, sha256: str, path: Path) -> Session | SessionWi
 def session_of(document: Document, source: SectionSource, sha256: str) -> Session:
     """Session of a document whose section has a known source and hash, without the draft line."""
     faults, horizons, bodies = (_saved_picks(document.drawing, kind) for kind in (FAULT, HORIZON, BODY))
-    return Session(source, sha256, faults, horizons, document.plan, bodies=bodies)
+    before, after = (tuple(map(_saved_hypothesis, others)) for others in (document.before, document.after))
+    own = Session(source, sha256, faults, horizons, document.plan, bodies=bodies)
+    return replace(own, name=document.name, before=before, after=after)
+
+
+def _saved_hypothesis(one: Alternative) -> SavedHypothesis:
+    faults, horizons, bodies = (_saved_picks(one.drawing, kind) for kind in (FAULT, HORIZON, BODY))
+    return SavedHypothesis(one.name, faults, horizons, one.plan, bodies)
+
+
+def others_of(session: Session) -> OtherHypotheses:
+    """The name of a session's own hypothesis, and the others."""
+    before, after = (
+        tuple(Alternative(one.name, drawing_of(one), one.plan) for one in others)
+        for others in (session.before, session.after)
+    )
+    return {"name": session.name, "before": before, "after": after}
 
 
 def _saved_picks(drawing: Drawing, kind: str) -> tuple[SavedPick, ...]:
@@ -353,8 +369,8 @@ def _saved_picks(drawing: Drawing, kind: str) -> tuple[SavedPick, ...]:
     )
 
 
-def drawing_of(session: Session) -> Drawing:
-    """Picks of a session with their styles, unusable ones included."""
+def drawing_of(session: Session | SavedHypothesis) -> Drawing:
+    """Picks of a session, or of one of its other hypotheses, with their styles, unusable ones included."""
     drawing = Drawing()
     for kind, picks in ((FAULT, session.faults), (HORIZON, session.horizons), (BODY, session.bodies)):
         for pick in picks:
