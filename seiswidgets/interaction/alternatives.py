@@ -1,10 +1,12 @@
 """Hypotheses of a document: one is shown and edited, and the others wait before and after it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from seiswidgets.errors import SettingError
+from seiswidgets.geology.plan import Plan
 from seiswidgets.interaction.document import Alternative, Document
+from seiswidgets.interaction.drawing import Drawing
 
 
 def alternatives(document: Document) -> tuple[Alternative, ...]:
@@ -17,6 +19,12 @@ def with_alternatives(document: Document, hypotheses: Sequence[Alternative], ind
     shown = hypotheses[index]
     before, after = tuple(hypotheses[:index]), tuple(hypotheses[index + 1 :])
     return replace(document, name=shown.name, drawing=shown.drawing, plan=shown.plan, before=before, after=after)
+
+
+def changed_alike(document: Document, change: Callable[[Drawing, Plan], tuple[Drawing, Plan]]) -> Document:
+    """Change picks and plan of every hypothesis by the same function."""
+    changed = [Alternative(one.name, *change(one.drawing, one.plan)) for one in alternatives(document)]
+    return with_alternatives(document, changed, len(document.before))
 
 
 def switched(document: Document, index: int) -> Document:

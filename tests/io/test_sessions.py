@@ -9,7 +9,7 @@ import pytest
 
 import seiswidgets as sw
 from seiswidgets.errors import DataError, PickError, SettingError
-from seiswidgets.io.session.saved_picks import SavedPick
+from seiswidgets.io.session.saved_picks import SavedHypothesis, SavedPick
 from seiswidgets.io.session.sources import section_sha256
 from tests.io.segyfiles import numbered, segy_bytes, volume_headers
 from tests.sections import real_section
@@ -527,3 +527,34 @@ def test_a_path_of_another_system_is_named_as_such(saved, name):
         sw.open_session(path).open_section()
     with pytest.raises(DataError, match="is a path of Windows"):
         sw.preview(name)
+
+
+def test_all_hypotheses_are_kept_in_their_order(case, session, saved):
+    other = SavedHypothesis("steep", session.faults, plan=sw.Plan(spacing=70.0, pins=[(500.0, 100.0)]))
+    several = replace(session, name="flat", before=(other,))
+    path = saved[0]
+    several.save(path)
+    again = sw.open_session(path)
+    assert again == several
+    assert [one.name for one in again.hypotheses(case.section)] == ["steep", "flat"]
+    first, second = again.hypotheses(case.section)
+    assert (first.plan, len(first.interpretation.horizons)) == (other.plan, 0)
+    assert second.plan == session.plan
+
+
+@pytest.mark.parametrize(
+    ("hypotheses", "message"),
+    [
+        ([], "one has no picks: the session's own"),
+        ([{"name": "A"}, {"name": "B"}], "one has no picks: the session's own"),
+        ([{"name": "A"}, {"name": "A", "picks": {}}], "each with a name of its own"),
+        (
+            [{"name": "A"}, {"name": "B", "picks": {"faults": [{"name": "F"}]}}],
+            r"hypotheses\[1\].picks.faults\[0\] lacks",
+        ),
+    ],
+)
+def test_damaged_hypotheses_are_refused_with_their_location(saved, hypotheses, message):
+    path = changed(saved, lambda document: document.update(hypotheses=hypotheses))
+    with pytest.raises(sw.DataError, match=message):
+        sw.open_session(path)

@@ -14,6 +14,8 @@ from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import finite_number
 from seiswidgets.geology.velocity import ConstantVelocity, LayerCake, LinearVelocity, TimeDepthTable, Velocity
+from seiswidgets.interaction.alternatives import changed_alike
+from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.messages import HINT
 from seiswidgets.widgets.workspace import Workspace
@@ -106,19 +108,19 @@ class DepthPanel(VBox):
 
     def _show(self, section: Section, label: str) -> None:
         workspace, source = self._workspace, self._workspace.source
-        drawing, plan, before, after = (
-            workspace.drawing,
-            workspace.plan,
-            workspace.section.conversion,
-            section.conversion,
-        )
-        if before:
-            drawing, plan = before.to_time(drawing), _converted(plan, before.to_time, section.x.mean())
-        if after:
-            drawing, plan = after.to_depth(drawing), _converted(plan, after.to_depth, section.x.mean())
+        before, after = workspace.section.conversion, section.conversion
+
+        def convert(drawing: Drawing, plan: Plan) -> tuple[Drawing, Plan]:
+            if before:
+                drawing, plan = before.to_time(drawing), _converted(plan, before.to_time, section.x.mean())
+            if after:
+                drawing, plan = after.to_depth(drawing), _converted(plan, after.to_depth, section.x.mean())
+            return drawing, plan
+
         if source:
             source = replace(source, velocity=after.velocity if after else None, dz=after.dz if after else None)
-        workspace.edit(label, section=section, drawing=drawing, plan=plan, source=source)
+        converted = replace(changed_alike(workspace.document, convert), section=section, source=source)
+        workspace.edit(label, **vars(converted))
 
     @property
     def _recorded(self) -> Section:
