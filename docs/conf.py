@@ -37,6 +37,8 @@ HANDOUTS = ("faulted_fold", "domino", "thrust")  # names of synthetic sections
 
 html_theme = "furo"
 html_title = "seiswidgets"
+html_static_path = ["static"]
+html_css_files = ["guide.css"]
 html_copy_source = False
 html_show_copyright = False  # it is in LICENSE
 

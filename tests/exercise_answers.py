@@ -77,6 +77,7 @@ ANSWERS = {
         ("303 ft", {"80": "vertical part", "46": "horizontal part", "69": "longer"}),
         ("217", {"125": "straight line", "177": "parabola", "33.5": "from the tip"}),
         ("139", {"69": "closes one fault", "0": "fill a gap", "240": "Those are the throws"}),
+        ("twice", {"not at all": "normal fault", "once": "overlap"}),
     ],
     "04_flattening": [
         (

