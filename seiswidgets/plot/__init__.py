@@ -19,6 +19,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "comparison": ["comparison", "pooled"],
         "figures": ["deformation", "workflow"],
+        "histories": ["burial", "throws"],
         "panels": ["mesh", "restoration", "section"],
         "story": ["storyboard"],
     },

@@ -9,9 +9,11 @@ from seiswidgets.errors import Keyword, SectionError
 from seiswidgets.geology.ensembles.ensemble import Ensemble
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import METRES, SECONDS, Section
+from seiswidgets.geology.tables import Table
 from seiswidgets.geology.validation import checked_kind
 from seiswidgets.io.exports.ensembles import ensemble_dataset
 from seiswidgets.io.exports.reports import stages_as_line
+from seiswidgets.io.exports.tables import table_dataset
 from seiswidgets.io.files import import_optional
 from seiswidgets.signatures import strict_keywords
 
@@ -37,25 +39,28 @@ def to_xarray(section: Section) -> "xarray.DataArray": ...
 
 
 @overload
-def to_xarray(section: Ensemble) -> "xarray.Dataset": ...
+def to_xarray(section: Ensemble | Table) -> "xarray.Dataset": ...
 
 
 @strict_keywords
-def to_xarray(section: Section | Ensemble) -> "xarray.DataArray | xarray.Dataset":
+def to_xarray(section: Section | Ensemble | Table) -> "xarray.DataArray | xarray.Dataset":
     """Convert a section to an array of dimensions ("z", "x"), with units and the rest in coordinates and attributes.
 
     An ensemble becomes a Dataset: each quantity by ``member``, with its percentiles and its shares of variance, the
-    depths of restored horizons, and the area ratios. What restoring gives is NaN in members with a ``problem``.
+    depths of restored horizons, and the area ratios. What restoring gives is NaN in members with a ``problem``. A table
+    becomes a Dataset with a variable for each column.
 
     Raises
     ------
     SettingError
-        If ``section`` is neither.
+        If ``section`` is none of these.
     DataError
         If xarray is not installed.
     """
     if isinstance(section, Ensemble):
         return ensemble_dataset(section)
+    if isinstance(section, Table):
+        return table_dataset(section)
     checked_kind(section, Section, "section")
     return import_optional("xarray", "to make an xarray.DataArray").DataArray(
         section.amplitude,

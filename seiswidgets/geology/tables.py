@@ -1,0 +1,57 @@
+"""Tables of measured values, with a unit for each column."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import Any, TypeAlias
+
+Value: TypeAlias = Any  # a string, a number, or None where there is none
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of values, printed as text and as HTML; `save_table` writes them.
+
+    Parameters
+    ----------
+    title : str
+    units : dict of str to str
+        The unit of each column by its name: "m", "1" for a number without, "" for text.
+    rows : tuple of tuples
+        A value for each column: a string, a number, or None where there is none.
+    """
+
+    title: str
+    units: Mapping[str, str]
+    rows: tuple[tuple[Value, ...], ...]
+
+    @property
+    def headings(self) -> list[str]:
+        """Name and unit of each column."""
+        return [f"{name} ({unit})" if unit not in ("", "1") else name for name, unit in self.units.items()]
+
+    def column(self, name: str) -> list[Value]:
+        """The values of a column."""
+        return [row[list(self.units).index(name)] for row in self.rows]
+
+    def __iter__(self) -> Iterator[dict[str, Value]]:
+        return (dict(zip(self.units, row, strict=True)) for row in self.rows)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __str__(self) -> str:
+        lines = [self.headings, *(list(map(_text, row)) for row in self.rows)]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        texts = ["  ".join(f"{cell:<{width}}" for cell, width in zip(line, widths, strict=True)) for line in lines]
+        return "\n".join([self.title, *(text.rstrip() for text in texts)])
+
+    def _repr_html_(self) -> str:
+        head = "".join(f'<th scope="col">{escape(heading)}</th>' for heading in self.headings)
+        rows = ["".join(f"<td>{escape(_text(value))}</td>" for value in row) for row in self.rows]
+        body = "".join(f"<tr>{row}</tr>" for row in rows)
+        return f"<table><caption>{escape(self.title)}</caption><tr>{head}</tr>{body}</table>"
+
+
+def _text(value: Value) -> str:
+    return "" if value is None else value if isinstance(value, str) else f"{value:.4g}"
