@@ -86,7 +86,7 @@ def grid_state(section: Section) -> State:
 
 
 def stage_state(section: Section, stage: Stage, quick: bool = False) -> State:
-    """The mesh of a stage: vertices before and after in samples of the section, and triangles.
+    """The vertices of a stage's mesh before and after it, in samples of the section.
 
     Vertices are 32-bit numbers; of a quick preview, 16-bit integers to be scaled and shifted.
     """
@@ -97,16 +97,19 @@ def stage_state(section: Section, stage: Stage, quick: bool = False) -> State:
     before, after = (
         (np.rint((shape - low) / scale).astype("<u2") if quick else shape.astype("<f4")).tobytes() for shape in shapes
     )
-    bits = 16 if len(stage.vertices) <= 1 << 16 else 32
     return {
         "before": before,
         "after": after,
         "low": low.tolist(),
         "scale": scale.tolist(),
         "quick": quick,
-        "triangles": stage.mesh.triangles.astype(f"<u{bits // 8}").tobytes(),
-        "bits": bits,
     }
+
+
+def triangles_state(stage: Stage) -> State:
+    """The triangles of a stage's mesh, which stay the same while its vertices move."""
+    bits = 16 if len(stage.vertices) <= 1 << 16 else 32
+    return {"triangles": stage.mesh.triangles.astype(f"<u{bits // 8}").tobytes(), "bits": bits}
 
 
 def colours_state(colouring: Colouring, scale: float) -> State:

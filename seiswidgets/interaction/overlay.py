@@ -14,6 +14,9 @@ from seiswidgets.interaction.viewport import Window, checked_window
 MARK_KINDS = ("cutoff", "held", "cursor", "finding")
 State = dict[str, Any]  # as JSON
 
+# of strokes and marks, what the browser assumes unless it is sent something else
+USUAL = {"dots": False, "dash": [], "label": "", "chosen": None, "joined": True, "text": "", "path": ""}
+
 
 @dataclass(frozen=True, eq=False)
 class Stroke:
@@ -52,7 +55,7 @@ class Stroke:
         """Convert to what the pointer layer draws: points as 32-bit offsets from the first, NaN where interrupted."""
         points = np.reshape(np.asarray(self.points, float), (-1, 2))
         drawable = np.asarray(np.isfinite(points).all(axis=1))
-        origin = points[drawable][0] if drawable.any() else np.zeros(2)
+        origin = np.array([float(f"{value:.9g}") for value in points[drawable][0]]) if drawable.any() else np.zeros(2)
         return {
             "origin": origin.tolist(),
             "points": np.where(drawable[:, None], points - origin, np.nan).astype("<f4").tobytes(),
@@ -64,6 +67,11 @@ class Stroke:
             "chosen": self.chosen,
             "joined": self.joined,
         }
+
+
+def without_usual(states: list[State], _: object = None) -> list[State]:
+    """States of strokes or marks without what is as usual: they are sent again and again during a drag."""
+    return [{name: value for name, value in state.items() if USUAL.get(name, ...) != value} for state in states]
 
 
 def stroke_points(state: State) -> np.ndarray:
@@ -101,7 +109,7 @@ class Mark:
 
     def state(self) -> State:
         """Convert to the JSON that the pointer layer draws."""
-        x, z = (float(value) for value in self.point)
+        x, z = (float(f"{value:.9g}") for value in self.point)
         return {"x": x, "z": z, "kind": self.kind, "text": self.text, "colour": self.colour, "path": self.path}
 
 

@@ -10,7 +10,7 @@ from seiswidgets.geology.section import Section
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.verdict import Verdict
 
-RATIO_NODES, RATIO_NODES_PREVIEW = 60_000, 5_000  # nodes at which the area ratio is computed
+RATIO_NODES, RATIO_NODES_PREVIEW = 60_000, 2_000  # nodes at which the area ratio is computed
 
 
 @dataclass(frozen=True, eq=False)

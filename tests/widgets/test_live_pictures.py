@@ -19,6 +19,7 @@ from seiswidgets.interaction.live_state import (
     deformation_state,
     grid_state,
     stage_state,
+    triangles_state,
 )
 
 NODE = Path(sys.executable).with_name("node")  # of the wheel in the extra "test"
@@ -47,6 +48,7 @@ def drawn(restoration, window, *, is_restored=True, time=None, colouring=None, s
     task = {
         "grid": grid_state(section),
         "stages": [stage_state(section, stage, restoration.quick) for stage in restoration.stages],
+        "triangles": [triangles_state(stage) for stage in restoration.stages],
         "texture": {
             "shape": source.shape,
             "data": b"".join(source.tile(index) for index in range(source.tiles)),

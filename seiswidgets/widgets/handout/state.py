@@ -11,7 +11,7 @@ from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.scenes import action, scenes
 from seiswidgets.interaction.colour import Colouring, RatioColouring
-from seiswidgets.interaction.live_state import TextureSource, colours_state, grid_state, stage_state
+from seiswidgets.interaction.live_state import TextureSource, colours_state, grid_state, stage_state, triangles_state
 from seiswidgets.interaction.overlay import Stroke
 from seiswidgets.interaction.projection import PaneProjection, side_of
 from seiswidgets.interaction.ratio_axis import ratio_axis
@@ -38,6 +38,7 @@ def handout_state(
         "grid": grid_state(section),
         "texture": source.whole,
         "stages": [stage_state(section, stage) for stage in restored.stages],
+        "triangles": [triangles_state(stage) for stage in restored.stages],
         "names": [action(stage) for stage in restored.stages],
         "scenes": [{"count": scene.count, "label": scene.label} for scene in scenes(restored.stages)],
         "colours": colours_state(colouring, source.scale),

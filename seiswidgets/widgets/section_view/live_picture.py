@@ -18,6 +18,7 @@ from seiswidgets.interaction.live_state import (
     deformation_state,
     grid_state,
     stage_state,
+    triangles_state,
 )
 from seiswidgets.widgets.assets import asset
 
@@ -34,8 +35,8 @@ class LivePicture(anywidget.AnyWidget):
     ----------
     grid, texture, colours, deformation : dict
         See `interaction.live_state`; "texture" has a number ("id"), its shape, the rows of a tile, and an overview.
-    stages : list of dict
-        The meshes; see `stage_state`.
+    stages, triangles : list of dict
+        The meshes; see `stage_state` and `triangles_state`.
     frame : float or None
         Moment that is shown, in frames from the present day; None is the end. Link a slider to it with ``jslink``.
     frames : int
@@ -49,6 +50,7 @@ class LivePicture(anywidget.AnyWidget):
     grid = Dict().tag(sync=True)
     texture = Dict().tag(sync=True)
     stages: List[Any] = List().tag(sync=True)
+    triangles: List[Any] = List().tag(sync=True)
     frame = Float(None, allow_none=True).tag(sync=True)
     frames = Int(FRAMES).tag(sync=True)
     colours = Dict().tag(sync=True)
@@ -79,7 +81,9 @@ class LivePicture(anywidget.AnyWidget):
         if len(stages) == len(self._shown) and all(map(is_, stages, self._shown)):
             return
         known = {id(stage): state for stage, state in zip(self._shown, self.stages, strict=True)}
-        self.stages = [known.get(id(stage)) or stage_state(self.section, stage, quick) for stage in stages]
+        with self.hold_sync():
+            self.triangles = [triangles_state(stage) for stage in stages]
+            self.stages = [known.get(id(stage)) or stage_state(self.section, stage, quick) for stage in stages]
         self._shown = tuple(stages)
 
     def colour(self, colouring: Colouring) -> None:

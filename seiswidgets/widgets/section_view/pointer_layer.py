@@ -9,6 +9,7 @@ from ipywidgets import CallbackDispatcher, widget_serialization
 from traitlets import Bool, Dict, Float, Instance, List, Unicode
 
 from seiswidgets.interaction.messages import PointerMessage
+from seiswidgets.interaction.overlay import without_usual
 from seiswidgets.widgets.assets import asset
 from seiswidgets.widgets.section_view.live_picture import LivePicture
 
@@ -61,8 +62,8 @@ class PointerLayer(anywidget.AnyWidget):
     axes = Dict().tag(sync=True)
     window: List[Any] = List().tag(sync=True)
     size: List[Any] = List().tag(sync=True)
-    strokes: List[Any] = List().tag(sync=True)
-    marks: List[Any] = List().tag(sync=True)
+    strokes: List[Any] = List().tag(sync=True, to_json=without_usual)
+    marks: List[Any] = List().tag(sync=True, to_json=without_usual)
     rubber: List[Any] = List().tag(sync=True)
     mesh = Dict().tag(sync=True)
     mesh_opacity = Float(0.6).tag(sync=True)

@@ -5,6 +5,51 @@ function toNumbers(bytes, NumberType) {
   return new NumberType(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
 }
 
+// maps/topology.js
+var Topology = class {
+  /** @param {Indices} triangles */
+  constructor(triangles) {
+    this.triangles = triangles;
+    this.knownNeighbours = void 0;
+    this.knownEdges = void 0;
+  }
+  /** The triangle beyond the edge opposite to each corner; -1 at the border and at a cut. */
+  get neighbours() {
+    this.knownNeighbours ??= neighboursOf(this.triangles);
+    return this.knownNeighbours;
+  }
+  /** Each edge once. */
+  get edges() {
+    this.knownEdges ??= edgesOf(this.triangles, this.neighbours);
+    return this.knownEdges;
+  }
+};
+function neighboursOf(triangles) {
+  const result = new Int32Array(triangles.length).fill(-1);
+  let count = 0;
+  for (const vertex of triangles) count = Math.max(count, vertex + 1);
+  const halfEdges = /* @__PURE__ */ new Map();
+  for (let i = 0; i < triangles.length; i++) {
+    const first = i - i % 3;
+    const [from, to] = [triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]];
+    const twin = halfEdges.get(to * count + from) ?? -1;
+    halfEdges.set(from * count + to, i);
+    if (twin < 0) continue;
+    result[i] = (twin - twin % 3) / 3;
+    result[twin] = first / 3;
+  }
+  return result;
+}
+function edgesOf(triangles, beyond) {
+  const edges = [];
+  for (let i = 0; i < triangles.length; i++) {
+    const first = i - i % 3;
+    if (beyond[i] > first / 3) continue;
+    edges.push(triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]);
+  }
+  return Uint32Array.from(edges);
+}
+
 // maps/triangle_finder.js
 var AXES = (
   /** @type {const} */
@@ -14,16 +59,16 @@ var MOST_STEPS = 40;
 var TriangleFinder = class {
   /**
    * @param {Numbers} vertices x and z in turn
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance the barycentric coordinate -tolerance still counts as inside
    */
-  constructor(vertices, triangles, tolerance) {
+  constructor(vertices, topology, tolerance) {
     this.vertices = vertices;
-    this.triangles = triangles;
+    this.topology = topology;
+    this.triangles = topology.triangles;
     this.tolerance = tolerance;
-    this.coefficients = barycentricCoefficients(vertices, triangles);
+    this.coefficients = barycentricCoefficients(vertices, topology.triangles);
     this.grid = void 0;
-    this.neighbours = void 0;
   }
   /**
    * A triangle that holds a point, or else the one that it is nearest to within the tolerance; -1 if there is none.
@@ -49,8 +94,8 @@ var TriangleFinder = class {
    * @param {number} z
    */
   walk(start, x, z) {
-    this.neighbours ??= neighbours(this.triangles);
     const { coefficients, tolerance } = this;
+    const { neighbours } = this.topology;
     let triangle = start;
     for (let step = 0; step < MOST_STEPS && triangle >= 0; step++) {
       const base = 6 * triangle;
@@ -60,7 +105,7 @@ var TriangleFinder = class {
       const c = coefficients[base + 4] * right + coefficients[base + 5] * down;
       const a = 1 - b - c;
       if (a >= -tolerance && b >= -tolerance && c >= -tolerance) return triangle;
-      triangle = this.neighbours[3 * triangle + (a <= b && a <= c ? 0 : b <= c ? 1 : 2)];
+      triangle = neighbours[3 * triangle + (a <= b && a <= c ? 0 : b <= c ? 1 : 2)];
     }
     return this.find(x, z);
   }
@@ -125,22 +170,6 @@ function barycentricCoefficients(vertices, triangles) {
   }
   return result;
 }
-function neighbours(triangles) {
-  const result = new Int32Array(triangles.length).fill(-1);
-  let count = 0;
-  for (const vertex of triangles) count = Math.max(count, vertex + 1);
-  const halfEdges = /* @__PURE__ */ new Map();
-  for (let i = 0; i < triangles.length; i++) {
-    const first = i - i % 3;
-    const [from, to] = [triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]];
-    const twin = halfEdges.get(to * count + from) ?? -1;
-    halfEdges.set(from * count + to, i);
-    if (twin < 0) continue;
-    result[i] = (twin - twin % 3) / 3;
-    result[twin] = first / 3;
-  }
-  return result;
-}
 var TriangleGrid = class {
   /** @param {Float64Array} boxes */
   constructor(boxes) {
@@ -194,16 +223,16 @@ var PiecewiseAffineMap = class _PiecewiseAffineMap {
   /**
    * @param {Numbers} source
    * @param {Numbers} target
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance
    */
-  static of(source, target, triangles, tolerance) {
-    return new _PiecewiseAffineMap(new TriangleFinder(source, triangles, tolerance), target);
+  static of(source, target, topology, tolerance) {
+    return new _PiecewiseAffineMap(new TriangleFinder(source, topology, tolerance), target);
   }
   /** @param {import("../pointer_layer/types.js").AffineMapState} state */
   static fromState({ source, target, triangles, tolerance }) {
     const [before, after] = [toNumbers(source, Float64Array), toNumbers(target, Float64Array)];
-    return _PiecewiseAffineMap.of(before, after, toNumbers(triangles, Uint32Array), tolerance);
+    return _PiecewiseAffineMap.of(before, after, new Topology(toNumbers(triangles, Uint32Array)), tolerance);
   }
   /**
    * Carry a point to the target; null outside the mesh.
@@ -371,13 +400,13 @@ var Stage = class _Stage {
   /**
    * @param {Numbers} before
    * @param {Numbers} after
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance
    */
-  constructor(before, after, triangles, tolerance) {
+  constructor(before, after, topology, tolerance) {
     this.before = before;
     this.after = after;
-    this.triangles = triangles;
+    this.topology = topology;
     this.tolerance = tolerance;
     this.cache = /* @__PURE__ */ new Map();
   }
@@ -392,11 +421,11 @@ var Stage = class _Stage {
     return this.cache.get(name);
   }
   get finderBefore() {
-    return this.cached("finderBefore", () => new TriangleFinder(this.before, this.triangles, this.tolerance));
+    return this.cached("finderBefore", () => new TriangleFinder(this.before, this.topology, this.tolerance));
   }
   /** Each edge once. */
   get edges() {
-    return this.cached("edges", () => edgesOf(this.triangles));
+    return this.topology.edges;
   }
   get toRestored() {
     return this.cached("toRestored", () => new PiecewiseAffineMap(this.finderBefore, this.after));
@@ -404,7 +433,7 @@ var Stage = class _Stage {
   get toOriginal() {
     return this.cached(
       "toOriginal",
-      () => PiecewiseAffineMap.of(this.after, this.before, this.triangles, this.tolerance)
+      () => PiecewiseAffineMap.of(this.after, this.before, this.topology, this.tolerance)
     );
   }
   /**
@@ -414,41 +443,29 @@ var Stage = class _Stage {
    * @param {[number, number]} metres in a sample
    */
   part(share, metres) {
-    const motion = this.cached("motion", () => new Motion(this.before, this.after, this.triangles, metres));
-    const part = new _Stage(this.before, motion.at(share), this.triangles, this.tolerance);
+    const motion = this.cached("motion", () => new Motion(this.before, this.after, this.topology.triangles, metres));
+    const part = new _Stage(this.before, motion.at(share), this.topology, this.tolerance);
     part.cache.set("finderBefore", this.finderBefore);
-    part.cache.set("edges", this.edges);
     return part;
   }
 };
-function edgesOf(triangles) {
-  const beyond = neighbours(triangles);
-  const edges = [];
-  for (let i = 0; i < triangles.length; i++) {
-    const first = i - i % 3;
-    if (beyond[i] > first / 3) continue;
-    edges.push(triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]);
-  }
-  return Uint32Array.from(edges);
-}
 function unpacked(bytes, { quick, low, scale }) {
   if (!quick) return toNumbers(bytes, Float32Array);
   return Float64Array.from(toNumbers(bytes, Uint16Array), (value, i) => low[i % 2] + scale[i % 2] * value);
 }
+function decodeTriangles({ triangles, bits }) {
+  return new Topology(bits === 16 ? toNumbers(triangles, Uint16Array) : toNumbers(triangles, Uint32Array));
+}
 var LiveChain = class {
   /**
    * @param {StageState[]} states
+   * @param {Topology[]} topologies
    * @param {{ metres: [number, number], tolerance: number }} grid
    */
-  constructor(states, grid) {
+  constructor(states, topologies, grid) {
     this.grid = grid;
     this.stages = states.map(
-      ({ before, after, triangles, bits, ...packing }) => new Stage(
-        unpacked(before, packing),
-        unpacked(after, packing),
-        bits === 16 ? toNumbers(triangles, Uint16Array) : toNumbers(triangles, Uint32Array),
-        grid.tolerance
-      )
+      ({ before, after, ...packing }, i) => new Stage(unpacked(before, packing), unpacked(after, packing), topologies[i], grid.tolerance)
     );
     this.moment = { time: this.stages.length, stages: this.stages };
   }
@@ -626,7 +643,7 @@ var Picture = class {
     this.decoded = /* @__PURE__ */ new Map();
   }
   /**
-   * @template {"grid" | "texture" | "stages" | "colours" | "deformation"} Name
+   * @template {"grid" | "texture" | "stages" | "triangles" | "colours" | "deformation"} Name
    * @template Value
    * @param {Name} name of a trait
    * @param {(state: PictureTraits[Name]) => Value} decode
@@ -644,7 +661,8 @@ var Picture = class {
     return this.model.get("grid");
   }
   get chain() {
-    return this.decode("stages", (states) => new LiveChain(states, this.grid));
+    const topologies = this.decode("triangles", (states) => states.map(decodeTriangles));
+    return this.decode("stages", (states) => new LiveChain(states, topologies, this.grid));
   }
   /** From 0, the present day, to the number of stages. */
   get time() {

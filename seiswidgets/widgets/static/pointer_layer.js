@@ -436,6 +436,51 @@ function toNumbers(bytes, NumberType) {
   return new NumberType(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
 }
 
+// maps/topology.js
+var Topology = class {
+  /** @param {Indices} triangles */
+  constructor(triangles) {
+    this.triangles = triangles;
+    this.knownNeighbours = void 0;
+    this.knownEdges = void 0;
+  }
+  /** The triangle beyond the edge opposite to each corner; -1 at the border and at a cut. */
+  get neighbours() {
+    this.knownNeighbours ??= neighboursOf(this.triangles);
+    return this.knownNeighbours;
+  }
+  /** Each edge once. */
+  get edges() {
+    this.knownEdges ??= edgesOf(this.triangles, this.neighbours);
+    return this.knownEdges;
+  }
+};
+function neighboursOf(triangles) {
+  const result = new Int32Array(triangles.length).fill(-1);
+  let count = 0;
+  for (const vertex of triangles) count = Math.max(count, vertex + 1);
+  const halfEdges = /* @__PURE__ */ new Map();
+  for (let i = 0; i < triangles.length; i++) {
+    const first = i - i % 3;
+    const [from, to] = [triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]];
+    const twin = halfEdges.get(to * count + from) ?? -1;
+    halfEdges.set(from * count + to, i);
+    if (twin < 0) continue;
+    result[i] = (twin - twin % 3) / 3;
+    result[twin] = first / 3;
+  }
+  return result;
+}
+function edgesOf(triangles, beyond) {
+  const edges = [];
+  for (let i = 0; i < triangles.length; i++) {
+    const first = i - i % 3;
+    if (beyond[i] > first / 3) continue;
+    edges.push(triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]);
+  }
+  return Uint32Array.from(edges);
+}
+
 // maps/triangle_finder.js
 var AXES = (
   /** @type {const} */
@@ -445,16 +490,16 @@ var MOST_STEPS = 40;
 var TriangleFinder = class {
   /**
    * @param {Numbers} vertices x and z in turn
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance the barycentric coordinate -tolerance still counts as inside
    */
-  constructor(vertices, triangles, tolerance) {
+  constructor(vertices, topology, tolerance) {
     this.vertices = vertices;
-    this.triangles = triangles;
+    this.topology = topology;
+    this.triangles = topology.triangles;
     this.tolerance = tolerance;
-    this.coefficients = barycentricCoefficients(vertices, triangles);
+    this.coefficients = barycentricCoefficients(vertices, topology.triangles);
     this.grid = void 0;
-    this.neighbours = void 0;
   }
   /**
    * A triangle that holds a point, or else the one that it is nearest to within the tolerance; -1 if there is none.
@@ -480,8 +525,8 @@ var TriangleFinder = class {
    * @param {number} z
    */
   walk(start, x, z) {
-    this.neighbours ??= neighbours(this.triangles);
     const { coefficients, tolerance } = this;
+    const { neighbours } = this.topology;
     let triangle = start;
     for (let step = 0; step < MOST_STEPS && triangle >= 0; step++) {
       const base = 6 * triangle;
@@ -491,7 +536,7 @@ var TriangleFinder = class {
       const c = coefficients[base + 4] * right + coefficients[base + 5] * down;
       const a = 1 - b - c;
       if (a >= -tolerance && b >= -tolerance && c >= -tolerance) return triangle;
-      triangle = this.neighbours[3 * triangle + (a <= b && a <= c ? 0 : b <= c ? 1 : 2)];
+      triangle = neighbours[3 * triangle + (a <= b && a <= c ? 0 : b <= c ? 1 : 2)];
     }
     return this.find(x, z);
   }
@@ -556,22 +601,6 @@ function barycentricCoefficients(vertices, triangles) {
   }
   return result;
 }
-function neighbours(triangles) {
-  const result = new Int32Array(triangles.length).fill(-1);
-  let count = 0;
-  for (const vertex of triangles) count = Math.max(count, vertex + 1);
-  const halfEdges = /* @__PURE__ */ new Map();
-  for (let i = 0; i < triangles.length; i++) {
-    const first = i - i % 3;
-    const [from, to] = [triangles[first + (i + 1) % 3], triangles[first + (i + 2) % 3]];
-    const twin = halfEdges.get(to * count + from) ?? -1;
-    halfEdges.set(from * count + to, i);
-    if (twin < 0) continue;
-    result[i] = (twin - twin % 3) / 3;
-    result[twin] = first / 3;
-  }
-  return result;
-}
 var TriangleGrid = class {
   /** @param {Float64Array} boxes */
   constructor(boxes) {
@@ -625,16 +654,16 @@ var PiecewiseAffineMap = class _PiecewiseAffineMap {
   /**
    * @param {Numbers} source
    * @param {Numbers} target
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance
    */
-  static of(source, target, triangles, tolerance) {
-    return new _PiecewiseAffineMap(new TriangleFinder(source, triangles, tolerance), target);
+  static of(source, target, topology, tolerance) {
+    return new _PiecewiseAffineMap(new TriangleFinder(source, topology, tolerance), target);
   }
   /** @param {import("../pointer_layer/types.js").AffineMapState} state */
   static fromState({ source, target, triangles, tolerance }) {
     const [before, after] = [toNumbers(source, Float64Array), toNumbers(target, Float64Array)];
-    return _PiecewiseAffineMap.of(before, after, toNumbers(triangles, Uint32Array), tolerance);
+    return _PiecewiseAffineMap.of(before, after, new Topology(toNumbers(triangles, Uint32Array)), tolerance);
   }
   /**
    * Carry a point to the target; null outside the mesh.
@@ -1344,7 +1373,7 @@ var DRAW = {
     append(group, "path", "mast", { d: `M0,0V${isUp ? -FLAG : FLAG}`, stroke: mark.colour });
     const flag = append(group, "g", "flag", { transform: `translate(-8 ${isUp ? -FLAG - 14 : FLAG - 2})` });
     append(flag, "circle", "ground", { cx: 8, cy: 8, r: 10 });
-    append(flag, "path", "icon", { d: mark.path, stroke: mark.colour });
+    append(flag, "path", "icon", { d: mark.path ?? "", stroke: mark.colour });
   },
   cursor(group, mark) {
     const halo = { className: "halo", width: 5, stroke: "white" };
@@ -1376,7 +1405,7 @@ function drawMarks(group, marks, plotArea, open) {
     DRAW[mark.kind](element, mark, y);
     if (mark.kind !== "finding") continue;
     const index = flags++;
-    makeButton(element, mark.text, () => open(index));
+    makeButton(element, mark.text ?? "", () => open(index));
   }
 }
 
@@ -1519,6 +1548,7 @@ var HALO = 1.5;
 var LABEL_MARGIN = 4;
 var LABEL_OFFSET = 9;
 var CAPITAL_HEIGHT = 10;
+var USUAL = { dots: false, dash: [], label: "", chosen: null, joined: true };
 function decodeStroke({ origin, points, ...look }) {
   const offsets = toNumbers(points, Float32Array);
   const decoded = Array.from({ length: offsets.length / 2 }, (_, i) => {
@@ -1528,7 +1558,7 @@ function decodeStroke({ origin, points, ...look }) {
       [x, z]
     );
   });
-  return { ...look, points: decoded };
+  return { ...USUAL, ...look, points: decoded };
 }
 function drawStrokes(group, strokes, plotArea, cutoffs) {
   group.replaceChildren();

@@ -1,7 +1,7 @@
 // Draws a scene for tests/widgets/test_live_pictures.py: reads it as JSON, and writes the pixels.
 
 import { readFileSync } from "node:fs";
-import { LiveChain } from "../../../seiswidgets/widgets/js/picture/live_chain.js";
+import { decodeTriangles, LiveChain } from "../../../seiswidgets/widgets/js/picture/live_chain.js";
 import { drawRatios, drawSection } from "../../../seiswidgets/widgets/js/picture/scene.js";
 import { Texture } from "../../../seiswidgets/widgets/js/picture/texture.js";
 import { toNumbers } from "../../../seiswidgets/widgets/js/shared/bytes.js";
@@ -15,7 +15,7 @@ function decode(base64) {
 const task = JSON.parse(readFileSync(0, "utf8"), (_, value) =>
   value?.bytes === undefined ? value : decode(value.bytes),
 );
-const { grid, stages, texture, time, size, window, isRestored, colours, deformation } = task;
+const { grid, stages, triangles, texture, time, size, window, isRestored, colours, deformation } = task;
 const palette = (/** @type {{ palette: DataView }} */ one) => ({
   ...one,
   palette: toNumbers(one.palette, Uint8Array),
@@ -25,7 +25,7 @@ const [rows, columns] = grid.shape;
 const pixels = new Uint32Array(size.width * size.height);
 const scene = {
   texture: new Texture(toNumbers(texture.data, Int16Array), width, height, { width: columns, height: rows }),
-  maps: new LiveChain(stages, grid).maps(time, isRestored),
+  maps: new LiveChain(stages, triangles.map(decodeTriangles), grid).maps(time, isRestored),
   isRestored,
   window,
   colours: /** @type {import("../../../seiswidgets/widgets/js/picture/painter.js").Colours} */ (palette(colours)),

@@ -5,6 +5,7 @@
  * @property {import("../picture/types.js").Grid} grid
  * @property {{ shape: [number, number], data: DataView }} texture
  * @property {import("../picture/live_chain.js").StageState[]} stages
+ * @property {import("../picture/live_chain.js").TrianglesState[]} triangles
  * @property {string[]} names of the stages
  * @property {{ palette: DataView, factor: number }} colours
  * @property {{ palette: DataView, span: number, axis: import("./ratios.js").Axis }} ratios

@@ -20,11 +20,12 @@ const NAMES = /** @type {const} */ (["original", "restored"]);
 /** @typedef {{ model: LocalModel, view: import("../pointer_layer/view.js").LayerView }} Pane */
 
 /** @param {State} state */
-function createPicture({ grid, texture, stages, colours, ratios }) {
+function createPicture({ grid, texture, stages, triangles, colours, ratios }) {
   const model = new LocalModel({
     grid,
     texture: { id: 0, shape: texture.shape, rows: texture.shape[0], overview: texture },
     stages,
+    triangles,
     frame: null,
     frames: FRAMES,
     colours,

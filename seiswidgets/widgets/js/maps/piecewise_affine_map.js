@@ -2,6 +2,7 @@
 // tolerance the kernel sends along.
 
 import { toNumbers } from "../shared/bytes.js";
+import { Topology } from "./topology.js";
 import { TriangleFinder } from "./triangle_finder.js";
 
 /** @typedef {{ x: number, z: number }} Point */
@@ -24,17 +25,17 @@ export class PiecewiseAffineMap {
   /**
    * @param {Numbers} source
    * @param {Numbers} target
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance
    */
-  static of(source, target, triangles, tolerance) {
-    return new PiecewiseAffineMap(new TriangleFinder(source, triangles, tolerance), target);
+  static of(source, target, topology, tolerance) {
+    return new PiecewiseAffineMap(new TriangleFinder(source, topology, tolerance), target);
   }
 
   /** @param {import("../pointer_layer/types.js").AffineMapState} state */
   static fromState({ source, target, triangles, tolerance }) {
     const [before, after] = [toNumbers(source, Float64Array), toNumbers(target, Float64Array)];
-    return PiecewiseAffineMap.of(before, after, toNumbers(triangles, Uint32Array), tolerance);
+    return PiecewiseAffineMap.of(before, after, new Topology(toNumbers(triangles, Uint32Array)), tolerance);
   }
 
   /**

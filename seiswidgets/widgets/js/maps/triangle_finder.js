@@ -4,24 +4,24 @@ const AXES = /** @type {const} */ ([0, 1]);
 const MOST_STEPS = 40; // triangles that a walk crosses before a search in the grid is quicker
 
 /** @typedef {Float64Array | Float32Array} Numbers */
-/** @typedef {Uint32Array | Uint16Array} Indices */
+/** @typedef {import("./topology.js").Indices} Indices */
+/** @typedef {import("./topology.js").Topology} Topology */
 
 /** Finds the triangle that holds a point, in any set of triangles: cut, with gaps, even overlapping. */
 export class TriangleFinder {
   /**
    * @param {Numbers} vertices x and z in turn
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance the barycentric coordinate -tolerance still counts as inside
    */
-  constructor(vertices, triangles, tolerance) {
+  constructor(vertices, topology, tolerance) {
     this.vertices = vertices;
-    this.triangles = triangles;
+    this.topology = topology;
+    this.triangles = topology.triangles;
     this.tolerance = tolerance;
-    this.coefficients = barycentricCoefficients(vertices, triangles);
+    this.coefficients = barycentricCoefficients(vertices, topology.triangles);
     /** @type {TriangleGrid | undefined} */
-    this.grid = undefined; // built when first needed, like the neighbours
-    /** @type {Int32Array | undefined} */
-    this.neighbours = undefined;
+    this.grid = undefined; // built when first needed
   }
 
   /**
@@ -49,8 +49,8 @@ export class TriangleFinder {
    * @param {number} z
    */
   walk(start, x, z) {
-    this.neighbours ??= neighbours(this.triangles);
     const { coefficients, tolerance } = this;
+    const { neighbours } = this.topology;
     let triangle = start;
     for (let step = 0; step < MOST_STEPS && triangle >= 0; step++) {
       const base = 6 * triangle;
@@ -60,7 +60,7 @@ export class TriangleFinder {
       const c = coefficients[base + 4] * right + coefficients[base + 5] * down;
       const a = 1 - b - c;
       if (a >= -tolerance && b >= -tolerance && c >= -tolerance) return triangle;
-      triangle = this.neighbours[3 * triangle + (a <= b && a <= c ? 0 : b <= c ? 1 : 2)];
+      triangle = neighbours[3 * triangle + (a <= b && a <= c ? 0 : b <= c ? 1 : 2)];
     }
     return this.find(x, z);
   }
@@ -132,29 +132,6 @@ function barycentricCoefficients(vertices, triangles) {
     result[to++] = -vx / twiceArea;
     result[to++] = -uz / twiceArea;
     result[to++] = ux / twiceArea;
-  }
-  return result;
-}
-
-/**
- * The triangle beyond the edge opposite to each corner; -1 at the border and at a cut.
- *
- * @param {Indices} triangles
- */
-export function neighbours(triangles) {
-  const result = new Int32Array(triangles.length).fill(-1);
-  let count = 0;
-  for (const vertex of triangles) count = Math.max(count, vertex + 1);
-  /** @type {Map<number, number>} */
-  const halfEdges = new Map(); // the corner opposite to each directed edge
-  for (let i = 0; i < triangles.length; i++) {
-    const first = i - (i % 3);
-    const [from, to] = [triangles[first + ((i + 1) % 3)], triangles[first + ((i + 2) % 3)]];
-    const twin = halfEdges.get(to * count + from) ?? -1;
-    halfEdges.set(from * count + to, i);
-    if (twin < 0) continue;
-    result[i] = (twin - (twin % 3)) / 3;
-    result[twin] = first / 3;
   }
   return result;
 }

@@ -1,12 +1,12 @@
 // The chain of meshes that both panes share, as the kernel sends it, at any time between its stages.
 
 import { PiecewiseAffineMap } from "../maps/piecewise_affine_map.js";
-import { neighbours, TriangleFinder } from "../maps/triangle_finder.js";
+import { Topology } from "../maps/topology.js";
+import { TriangleFinder } from "../maps/triangle_finder.js";
 import { toNumbers } from "../shared/bytes.js";
 import { Motion } from "./motion.js";
 
 /** @typedef {import("../maps/triangle_finder.js").Numbers} Numbers */
-/** @typedef {import("../maps/triangle_finder.js").Indices} Indices */
 /** @typedef {import("../maps/piecewise_affine_map.js").Point} Point */
 
 /**
@@ -16,22 +16,22 @@ import { Motion } from "./motion.js";
  * @property {boolean} quick true for 16-bit integers, which are to be scaled and shifted
  * @property {[number, number]} low
  * @property {[number, number]} scale
- * @property {DataView} triangles
- * @property {16 | 32} bits of the triangles
  */
+
+/** @typedef {{ triangles: DataView, bits: 16 | 32 }} TrianglesState */
 
 /** One step of a restoration: a mesh before and after. Everything is computed when first needed. */
 class Stage {
   /**
    * @param {Numbers} before
    * @param {Numbers} after
-   * @param {Indices} triangles
+   * @param {Topology} topology
    * @param {number} tolerance
    */
-  constructor(before, after, triangles, tolerance) {
+  constructor(before, after, topology, tolerance) {
     this.before = before;
     this.after = after;
-    this.triangles = triangles;
+    this.topology = topology;
     this.tolerance = tolerance;
     /** @type {Map<string, any>} */
     this.cache = new Map();
@@ -49,12 +49,12 @@ class Stage {
   }
 
   get finderBefore() {
-    return this.cached("finderBefore", () => new TriangleFinder(this.before, this.triangles, this.tolerance));
+    return this.cached("finderBefore", () => new TriangleFinder(this.before, this.topology, this.tolerance));
   }
 
   /** Each edge once. */
   get edges() {
-    return this.cached("edges", () => edgesOf(this.triangles));
+    return this.topology.edges;
   }
 
   get toRestored() {
@@ -63,7 +63,7 @@ class Stage {
 
   get toOriginal() {
     return this.cached("toOriginal", () =>
-      PiecewiseAffineMap.of(this.after, this.before, this.triangles, this.tolerance),
+      PiecewiseAffineMap.of(this.after, this.before, this.topology, this.tolerance),
     );
   }
 
@@ -74,27 +74,11 @@ class Stage {
    * @param {[number, number]} metres in a sample
    */
   part(share, metres) {
-    const motion = this.cached("motion", () => new Motion(this.before, this.after, this.triangles, metres));
-    const part = new Stage(this.before, motion.at(share), this.triangles, this.tolerance);
+    const motion = this.cached("motion", () => new Motion(this.before, this.after, this.topology.triangles, metres));
+    const part = new Stage(this.before, motion.at(share), this.topology, this.tolerance);
     part.cache.set("finderBefore", this.finderBefore);
-    part.cache.set("edges", this.edges);
     return part;
   }
-}
-
-/**
- * @param {Indices} triangles
- */
-function edgesOf(triangles) {
-  const beyond = neighbours(triangles);
-  /** @type {number[]} */
-  const edges = [];
-  for (let i = 0; i < triangles.length; i++) {
-    const first = i - (i % 3);
-    if (beyond[i] > first / 3) continue; // the other triangle has it
-    edges.push(triangles[first + ((i + 1) % 3)], triangles[first + ((i + 2) % 3)]);
-  }
-  return Uint32Array.from(edges);
 }
 
 /**
@@ -106,22 +90,23 @@ function unpacked(bytes, { quick, low, scale }) {
   return Float64Array.from(toNumbers(bytes, Uint16Array), (value, i) => low[i % 2] + scale[i % 2] * value);
 }
 
+/** @param {TrianglesState} state */
+export function decodeTriangles({ triangles, bits }) {
+  return new Topology(bits === 16 ? toNumbers(triangles, Uint16Array) : toNumbers(triangles, Uint32Array));
+}
+
 /** The maps between the present-day section and the restored one, in samples. */
 export class LiveChain {
   /**
    * @param {StageState[]} states
+   * @param {Topology[]} topologies
    * @param {{ metres: [number, number], tolerance: number }} grid
    */
-  constructor(states, grid) {
+  constructor(states, topologies, grid) {
     this.grid = grid;
     this.stages = states.map(
-      ({ before, after, triangles, bits, ...packing }) =>
-        new Stage(
-          unpacked(before, packing),
-          unpacked(after, packing),
-          bits === 16 ? toNumbers(triangles, Uint16Array) : toNumbers(triangles, Uint32Array),
-          grid.tolerance,
-        ),
+      ({ before, after, ...packing }, i) =>
+        new Stage(unpacked(before, packing), unpacked(after, packing), topologies[i], grid.tolerance),
     );
     /** @type {{ time: number, stages: Stage[] }} */
     this.moment = { time: this.stages.length, stages: this.stages };

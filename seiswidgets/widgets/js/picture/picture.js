@@ -1,7 +1,7 @@
 // The picture that both panes draw: the section's texture, the chain of meshes, the time, and the colours.
 
 import { toNumbers } from "../shared/bytes.js";
-import { LiveChain } from "./live_chain.js";
+import { decodeTriangles, LiveChain } from "./live_chain.js";
 import { Texture } from "./texture.js";
 import { TextureLoader } from "./texture_loader.js";
 
@@ -19,7 +19,7 @@ export class Picture {
   }
 
   /**
-   * @template {"grid" | "texture" | "stages" | "colours" | "deformation"} Name
+   * @template {"grid" | "texture" | "stages" | "triangles" | "colours" | "deformation"} Name
    * @template Value
    * @param {Name} name of a trait
    * @param {(state: PictureTraits[Name]) => Value} decode
@@ -39,7 +39,8 @@ export class Picture {
   }
 
   get chain() {
-    return this.decode("stages", (states) => new LiveChain(states, this.grid));
+    const topologies = this.decode("triangles", (states) => states.map(decodeTriangles));
+    return this.decode("stages", (states) => new LiveChain(states, topologies, this.grid));
   }
 
   /** From 0, the present day, to the number of stages. */

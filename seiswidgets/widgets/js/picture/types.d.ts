@@ -1,7 +1,7 @@
 // The traits of LivePicture in section_view/live_picture.py, as the browser receives them.
 
 import type { AnyModel } from "@anywidget/types";
-import type { StageState } from "./live_chain.js";
+import type { StageState, TrianglesState } from "./live_chain.js";
 import type { Picture } from "./picture.js";
 
 export type Grid = {
@@ -23,6 +23,7 @@ export type PictureTraits = {
   grid: Grid;
   texture: TextureState;
   stages: StageState[];
+  triangles: TrianglesState[];
   frame: number | null;
   frames: number;
   colours: { palette: DataView; factor: number };

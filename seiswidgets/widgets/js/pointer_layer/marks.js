@@ -23,7 +23,7 @@ const DRAW = {
     append(group, "path", "mast", { d: `M0,0V${isUp ? -FLAG : FLAG}`, stroke: mark.colour });
     const flag = append(group, "g", "flag", { transform: `translate(-8 ${isUp ? -FLAG - 14 : FLAG - 2})` });
     append(flag, "circle", "ground", { cx: 8, cy: 8, r: 10 });
-    append(flag, "path", "icon", { d: mark.path, stroke: mark.colour });
+    append(flag, "path", "icon", { d: mark.path ?? "", stroke: mark.colour });
   },
   cursor(group, mark) {
     const halo = { className: "halo", width: 5, stroke: "white" };
@@ -70,6 +70,6 @@ export function drawMarks(group, marks, plotArea, open) {
     DRAW[mark.kind](element, mark, y);
     if (mark.kind !== "finding") continue;
     const index = flags++;
-    makeButton(element, mark.text, () => open(index));
+    makeButton(element, mark.text ?? "", () => open(index));
   }
 }

@@ -15,6 +15,9 @@ const CAPITAL_HEIGHT = 10; // css pixels
 /** @typedef {import("./types.js").Pixel} Pixel */
 /** @typedef {import("./types.js").Stroke} Stroke */
 
+/** What a stroke is unless it says otherwise; see USUAL in interaction/overlay.py. */
+const USUAL = { dots: false, dash: [], label: "", chosen: null, joined: true };
+
 /**
  * @param {import("./types.js").StrokeState} state
  * @returns {Stroke}
@@ -25,7 +28,7 @@ export function decodeStroke({ origin, points, ...look }) {
     const [x, z] = [origin[0] + offsets[2 * i], origin[1] + offsets[2 * i + 1]];
     return Number.isNaN(x) ? null : /** @type {[number, number]} */ ([x, z]);
   });
-  return { ...look, points: decoded };
+  return { ...USUAL, ...look, points: decoded };
 }
 
 /**

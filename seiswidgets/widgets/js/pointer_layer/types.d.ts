@@ -12,7 +12,8 @@ export type Axis = { title: string; pixels: number[]; labels: string[] };
 export type Axes = { x: Axis; z: Axis; left: number; note: string };
 
 /** Points are offsets from the origin, as 32-bit numbers; NaN interrupts the line. */
-export type StrokeState = Omit<Stroke, "points"> & { origin: [number, number]; points: DataView };
+export type StrokeState = Pick<Stroke, "colour" | "width"> &
+  Partial<Omit<Stroke, "points">> & { origin: [number, number]; points: DataView };
 
 export type Stroke = {
   points: ([number, number] | null)[];
@@ -29,9 +30,9 @@ export type Mark = {
   x: number;
   z: number;
   kind: "cutoff" | "held" | "cursor" | "finding";
-  text: string;
+  text?: string;
   colour: string;
-  path: string;
+  path?: string;
 };
 
 export type Mesh = { vertices: DataView; edges: DataView };
