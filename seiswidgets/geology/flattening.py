@@ -10,6 +10,7 @@ from shapely import LineString
 from seiswidgets.core.terms import AreaBarrier, ContourLaplacian, MeanValue
 from seiswidgets.geology.bed_mesh import mesh_bed
 from seiswidgets.geology.bedding import bedding_terms
+from seiswidgets.geology.beyond import FREE, Beyond
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.observations import observe_level
 from seiswidgets.geology.solve import SolverOptions, minimise, warm_start
@@ -27,6 +28,7 @@ def flatten_stage(
     options: SolverOptions,
     guides: Sequence[LineString] = (),
     before: Stage | None = None,
+    beyond: str = FREE,
 ) -> Stage:
     """Bring a horizon to a level, or to a profile.
 
@@ -44,12 +46,15 @@ def flatten_stage(
         Other horizons, which give the direction of the beds too.
     before : Stage, optional
         The stage before.
+    beyond : {"free", "keep", "level", "trend"}
+        What happens to the rock beyond the horizon's ends.
     """
     began = time.perf_counter()
-    bed = mesh_bed(domain, name, pieces, options.start, before)
+    rest = Beyond.of(pieces, domain, beyond)
+    bed = mesh_bed(domain, name, [*pieces, *rest.extensions], options.start, before)
     mesh = bed.mesh
-    datum = _mean_level(bed.positions(mesh.vertices)[bed.edges]) if datum is None else datum
-    varies, free = isinstance(datum, tuple), np.ones(len(mesh.vertices), bool)
+    datum = _mean_level(bed.positions(mesh.vertices)[bed.edges], rest) if datum is None else datum
+    varies, free = isinstance(datum, tuple), rest.free_vertices(mesh)
     start = warm_start(mesh, free, options.start)
     vertices = mesh.vertices if start is None else start
     bedding = bedding_terms(mesh, [*pieces, *guides], domain.spacing, options.row_weights)
@@ -65,13 +70,15 @@ def flatten_stage(
         ]
         solution = minimise(mesh, terms, vertices, free, domain, options)
         vertices = solution.vertices.copy()
-    if not varies:  # a shift of the whole sideways costs nothing: choose the least
+    if not varies and free.all():  # a shift of the whole sideways costs nothing: choose the least
         vertices[:, 0] -= np.average(vertices[:, 0] - mesh.vertices[:, 0], weights=mesh.vertex_areas)
-    observe = partial(observe_level, name, bed, level, vertices, domain)
+    observe = partial(observe_level, name, bed, level, vertices, rest)
     outcome = Outcome((name,), solution, options.solver, time.perf_counter() - began, observe)
     return Stage("flatten", mesh, vertices, (), domain, outcome, bed)
 
 
-def _mean_level(ends: np.ndarray) -> float:
+def _mean_level(ends: np.ndarray, rest: Beyond) -> float:
+    """Mean level of a horizon, without its extensions, from the ends of its edges, shape (k, 2, 2)."""
+    ends = ends[rest.is_drawn(ends[:, :, 0].mean(axis=1))] if rest.extensions else ends
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     return float(np.average(ends[:, :, 1].mean(axis=1), weights=lengths))

@@ -8,6 +8,7 @@ import numpy as np
 from seiswidgets.core.contact import Contact
 from seiswidgets.core.solver import Solution
 from seiswidgets.core.terms import Level
+from seiswidgets.geology.beyond import Beyond
 from seiswidgets.geology.cutoffs import CutOffPair, separation
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.extensions import extension_findings
@@ -60,8 +61,9 @@ def observe_picks(blocks: "Blocks", domain: RestorationDomain) -> list[Finding]:
     ]
 
 
-def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, domain: RestorationDomain) -> Observations:
-    """Measure how level a flattened horizon is, and how its length has changed."""
+def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, rest: Beyond) -> Observations:
+    """Measure how level a flattened horizon is, how its length has changed, and how far the rest has moved."""
+    domain, moved = rest.domain, vertices
     before, vertices = bed.positions(bed.mesh.vertices), bed.positions(vertices)
     off = vertices[level.vertices, 1] - level.datum
     flatness = float(np.sqrt(np.mean(off**2)) / domain.section.metres[1])
@@ -69,7 +71,10 @@ def observe_level(name: str, bed: "Bed", level: Level, vertices: np.ndarray, dom
     farthest = before[level.vertices[np.argmax(np.abs(off))]]
     uneven = _uneven(name, float(np.abs(off).max()), farthest, domain)
     stretched = _stretched(name, [bed.edges], before, vertices, domain)
-    return Observations(beds=(report,), findings=(*uneven, *stretched))
+    drawn = rest.is_drawn(before[level.vertices, 0])
+    own = np.max(np.abs((vertices - before)[level.vertices, 1][drawn]), initial=0.0)
+    findings = (*uneven, *stretched, *rest.findings(name, bed.mesh, moved, float(own)))
+    return Observations(beds=(report,), findings=findings)
 
 
 def observe_bed(

@@ -16,6 +16,7 @@ from seiswidgets.core.solver import Progress
 from seiswidgets.core.triangulation import DENSITY
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
+from seiswidgets.geology.beyond import FREE, check_beyond
 from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.picks import CONSTRAIN, MISSING, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
@@ -51,11 +52,14 @@ class Step:
     slip : dict of str to SlipProfile
         Slip to undo along some of the faults, by name; see `Restoration.unfault`. Names of faults that the step does
         not slide along have no effect.
+    beyond : {"free", "keep", "level", "trend"}
+        What happens to the rock beyond the ends of the horizon; see `Restoration.flatten`.
 
     Raises
     ------
     SettingError
-        If the kind is not one of these, the datum is not a finite number, or a slip is not a SlipProfile.
+        If the kind or ``beyond`` is not one of these, the datum is not a finite number, or a slip is not a
+        SlipProfile.
     """
 
     kind: str
@@ -63,6 +67,7 @@ class Step:
     datum: float | None = None
     on: bool = True
     slip: Mapping[str, SlipProfile] = field(default_factory=dict, hash=False)
+    beyond: str = FREE
 
     def __post_init__(self) -> None:
         if self.kind not in (UNFAULT, FLATTEN):
@@ -71,6 +76,7 @@ class Step:
         object.__setattr__(self, "picks", (names,) if isinstance(names, str) else tuple(names))
         if self.datum is not None:
             object.__setattr__(self, "datum", validation.finite_number("datum", self.datum))
+        check_beyond(self.beyond)
         object.__setattr__(self, "slip", checked_slip(self.slip, tuple(self.slip or ())))
 
 
@@ -244,7 +250,8 @@ class RestorationJob:
             return restoration.unfault(
                 faults, horizons, boundaries=others, fixed=fixed, pins=pins, regional=regional, slip=slip, **options
             )
-        return restoration.flatten(self.horizon(step), datum=step.datum, beds=self._beds, **options)
+        beyond, beds = step.beyond, self._beds
+        return restoration.flatten(self.horizon(step), datum=step.datum, beyond=beyond, beds=beds, **options)
 
     @property
     def _beds(self) -> Sequence[Horizon]:
@@ -304,7 +311,7 @@ class RestorationJob:
             ]
             count = len(self.faults(step)) if step.kind == UNFAULT else 0
             slip = self.slip(step) if step.kind == UNFAULT else {}
-            yield step.kind, step.datum, holds, count, lines, weights, slip, shared
+            yield step.kind, step.datum, step.beyond, holds, count, lines, weights, slip, shared
 
 
 def _lines(pick: Fault | Horizon) -> list[list[list[float]]]:

@@ -13,6 +13,7 @@ from shapely import LineString
 from seiswidgets.core.solver import Progress
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
+from seiswidgets.geology.beyond import FREE, check_beyond
 from seiswidgets.geology.bodies import Body, body_polygons, without_bodies
 from seiswidgets.geology.decompaction import decompact_stage
 from seiswidgets.geology.domain import RestorationDomain
@@ -186,6 +187,7 @@ class Restoration:
         *,
         datum: float | Profile | None = None,
         by: str = LENGTH,
+        beyond: str = FREE,
         beds: Sequence[Horizon] = (),
         age: float | None = None,
         **options: Unpack[SolverKeywords],
@@ -206,6 +208,12 @@ class Restoration:
         by : {"length", "vertical shear"}
             The second moves each column of rock up or down, in closed form: it keeps areas, but not the lengths of beds
             that dip, and suits relief that comes from compaction and subsidence.
+        beyond : {"free", "keep", "level", "trend"}
+            What happens to the rock beyond the ends of a horizon that does not cross the section. "free": it turns with
+            the horizon. "keep": it stays where it is from a distance on: the horizon's own width, or half of the way to
+            the section's end. "level", "trend": the horizon is extended straight to the border, level, or in the
+            direction from its leftmost end to its rightmost one, and flattened as far. The report says how far the
+            rest moves.
         beds : list of Horizon, optional
             Horizons that give the direction of the beds besides this one, for ``weights.bedding``.
         weights, solver, weighting, max_iterations, progress, start
@@ -222,6 +230,7 @@ class Restoration:
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
         picks = self.usable_picks
         pieces = picks.bed_lines(horizon)
+        check_beyond(beyond)
         level = None if datum is None else self._profile_in_rock("datum", datum)
         if by == VERTICAL_SHEAR:
             stage = shear_flat_stage(self.domain, horizon.name, pieces, [], level, solver_options.progress)
@@ -229,7 +238,7 @@ class Restoration:
             others = [bed for bed in beds if bed.name != horizon.name and bed.constrains]
             guides = [line for bed in others for line in picks.bed_lines(bed)]
             before = self.stages[-1] if self.stages else None
-            stage = flatten_stage(self.domain, horizon.name, pieces, level, solver_options, guides, before)
+            stage = flatten_stage(self.domain, horizon.name, pieces, level, solver_options, guides, before, beyond)
         stage = replace(stage, weights=solver_options.weights, drawn=_drawn(horizon, beds), age=age)
         return self._with_stage(stage, (*stage.outcome.notes, *picks.notes([horizon])))
 

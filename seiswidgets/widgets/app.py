@@ -1,7 +1,7 @@
 """The restoration app: draw on a section, restore it, and inspect the result."""
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -33,6 +33,7 @@ from seiswidgets.widgets.layout import Divider, MaximiseButton
 from seiswidgets.widgets.linked_panes import LinkedPanes, Reading
 from seiswidgets.widgets.live_restoration import LiveRestoration
 from seiswidgets.widgets.names import Names
+from seiswidgets.widgets.offers import offers
 from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList
@@ -239,7 +240,7 @@ class RestorationApp(WithParts, VBox):
         self.solving = SolverControls(workspace)
         self.timeline, self.strip = Timeline(), StageStrip(self.panes.picture)
         self._strip_link = jslink((self.timeline.slider, "value"), (self.strip, "frame"))
-        self.status = StatusBar(self.restore, self.cancel)
+        self.status = StatusBar(self.restore, self.cancel, partial(offers, workspace))
         self.reports = Reports()
         self.divider, self.maximise_button = Divider(), MaximiseButton()
         self.session_bar = SessionBar(workspace)

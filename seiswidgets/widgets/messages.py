@@ -2,7 +2,7 @@
 
 import logging
 
-from seiswidgets.errors import SeiswidgetsError
+from seiswidgets.errors import SeiswidgetsError, Text
 
 TROUBLE = '<div role="alert" style="color: var(--jp-error-color1, #b71c1c); line-height: 1.4">{}</div>'
 HINT = '<div role="status" style="color: var(--jp-ui-font-color2, #616161); line-height: 1.4">{}</div>'
@@ -11,7 +11,14 @@ IN_THE_APP = {  # by the kind of an error
     "held outside": "Hold: the pin lies outside the rock. Click it to remove it, then click inside the block to hold.",
 }
 
+LABELS = {"beyond": "“beyond its ends”, in Steps"}  # by keyword
+
 _log = logging.getLogger(__name__)
+
+
+def in_the_app(text: str) -> str:
+    """Render a message with the labels of the app in place of keywords."""
+    return text.rendered(LABELS) if isinstance(text, Text) else text
 
 
 def in_words(error: Exception) -> str:

@@ -8,7 +8,8 @@ from traitlets import Bool, Unicode
 
 from seiswidgets.geology.findings import Finding
 from seiswidgets.widgets.binding import bind_control
-from seiswidgets.widgets.messages import HINT, TROUBLE
+from seiswidgets.widgets.messages import HINT, TROUBLE, in_the_app
+from seiswidgets.widgets.offers import Offer
 from seiswidgets.widgets.restorer import Progress
 from seiswidgets.widgets.severity import LOOKS, label
 from seiswidgets.widgets.verdict import Verdict, title_of
@@ -29,6 +30,8 @@ class StatusBar(Box):
     ----------
     restore, cancel : callable()
         Called by the buttons.
+    offers : callable(Finding) -> list of Offer, optional
+        The ways out of a finding that is shown, for each of which there is a button.
 
     Attributes
     ----------
@@ -45,7 +48,13 @@ class StatusBar(Box):
     live = Bool(True)
     text = Unicode()
 
-    def __init__(self, restore: Callable[[], None], cancel: Callable[[], None]):
+    def __init__(
+        self,
+        restore: Callable[[], None],
+        cancel: Callable[[], None],
+        offers: Callable[[Finding], list[Offer]] = lambda finding: [],
+    ):
+        self._find_offers, self._offers = offers, list[Offer]()
         auto = {"width": "auto"}
         button = Button(
             description="Restore", icon="play", button_style="primary", tooltip="Restore the section now", layout=auto
@@ -61,7 +70,9 @@ class StatusBar(Box):
         button.on_click(lambda _: restore())
         self._cancel.on_click(lambda _: cancel())
         self.buttons = HBox([button, live])
-        super().__init__([self.line, self.progress], layout=Layout(align_items="center", min_height="36px"))
+        self.offers = HBox(layout=Layout(display="none", flex_flow="row wrap"))
+        parts = [self.line, self.offers, self.progress]
+        super().__init__(parts, layout=Layout(align_items="center", min_height="36px"))
         bind_control(self, "live", live)
 
     def show_progress(self, progress: Progress | None) -> None:
@@ -86,16 +97,17 @@ class StatusBar(Box):
 
     def tell(self, finding: Finding) -> None:
         """Show one finding in full."""
-        text = f"{title_of(finding)}: {finding.text}"
-        self.text = text
+        words = in_the_app(finding.text)
+        self.text = text = f"{title_of(finding)}: {words}"
         look = LOOKS[finding.severity]
         self.line.value = VERDICT.format(
             role=look.role,
             whole=escape(text),
             label=label(finding.severity, title_of(finding)),
-            text=escape(finding.text),
+            text=escape(words),
             rest="",
         )
+        self._offer(finding)
 
     def judge(self, verdict: Verdict) -> None:
         """Show the verdict on a restoration: its label, and one sentence."""
@@ -107,7 +119,25 @@ class StatusBar(Box):
             text=escape(verdict.text),
             rest=escape(verdict.rest),
         )
+        self._offer(*verdict.findings[:1])
+
+    def _offer(self, *findings: Finding) -> None:
+        """Show a button for each way out of some findings; none hides them."""
+        self._offers = [offer for finding in findings for offer in self._find_offers(finding)]
+        buttons = self.offers.children
+        buttons += tuple(self._offer_button(index) for index in range(len(buttons), len(self._offers)))
+        for button, offer in zip(buttons, self._offers, strict=False):
+            button.description, button.tooltip = offer.label, offer.tooltip
+        for index, button in enumerate(buttons):
+            button.layout.display = "" if index < len(self._offers) else "none"
+        self.offers.children, self.offers.layout.display = buttons, "" if self._offers else "none"
+
+    def _offer_button(self, index: int) -> Button:
+        button = Button(layout=Layout(width="auto"))
+        button.on_click(lambda _: self._offers[index].act())
+        return button
 
     def _show(self, style: str, text: str) -> None:
         self.text = text
         self.line.value = style.format(escape(text))
+        self._offer()

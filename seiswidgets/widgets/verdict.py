@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.report import achievements
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.widgets.messages import in_the_app
 from seiswidgets.widgets.severity import GOOD
 
 TITLES = {
@@ -19,6 +20,7 @@ TITLES = {
     "bed length": "bed length changed",
     "datum": "off its datum",
     "crossing": "horizons cross",
+    "beyond": "the rest turns",
 }
 INCOMPLETE = {"undetermined", "one-sided"}  # kinds of findings about drawings in progress
 
@@ -57,7 +59,7 @@ class Verdict:
         worst = grave[0]
         title = f"check: {title_of(worst)}" if worst.severity == "warning" else title_of(worst)
         rest = f"and {len(grave) - 1} more (see Report)" if grave[1:] else ""
-        return cls(worst.severity, title, worst.text, rest, findings)
+        return cls(worst.severity, title, in_the_app(worst.text), rest, findings)
 
     @property
     def is_incomplete(self) -> bool:

@@ -18,7 +18,7 @@ SYNTHETIC = sw.SectionSource("synthetic", "faulted_fold", {"throw": 120.0, "hori
 PLAN = sw.Plan(
     (
         sw.Step("unfault", ("F1",), slip={"F2": sw.SlipProfile([0, 90.5], [20, -1 / 3])}),
-        sw.Step("flatten", ("H2",), datum=950.0),
+        sw.Step("flatten", ("H2",), datum=950.0, beyond="trend"),
         sw.Step("flatten", on=False),
     ),
     sw.Weights(stitch=7.5, edge=1 / 3),
@@ -397,10 +397,10 @@ def test_sessions_of_version_1_open(saved, session):
     def age(document):
         document["version"] = 1
         for step in document["plan"]["steps"]:
-            del step["slip"]
+            del step["slip"], step["beyond"]
 
     again = sw.open_session(changed(saved, age))
-    assert again.plan.steps == tuple(replace(step, slip={}) for step in session.plan.steps)
+    assert again.plan.steps == tuple(replace(step, slip={}, beyond="free") for step in session.plan.steps)
     assert again.faults == session.faults
 
 

@@ -48,6 +48,7 @@ def test_it_begins_with_the_steps_of_a_plan(steps):
     assert steps.steps == sw.Plan().steps
     assert [row.enabled.description for row in rows(steps)] == [UNFAULT, FLATTEN]
     assert [row.datum.layout.display for row in rows(steps)] == ["none", ""]
+    assert [row.beyond.layout.display for row in rows(steps)] == ["none", ""]
 
 
 def test_choices_are_the_picks_that_there_are_as_text(steps):
@@ -66,7 +67,8 @@ def test_each_control_changes_its_step_once(steps, told):
     assert steps.steps == (sw.Step(UNFAULT, (EVIL,)), sw.Step(FLATTEN, ("H2",), 1500.5, on=False))
     flatten.datum.value = ""
     flatten.choice.value = ()
-    assert steps.steps[1] == sw.Step(FLATTEN, on=False)
+    flatten.beyond.value = "keep"
+    assert steps.steps[1] == sw.Step(FLATTEN, on=False, beyond="keep")
 
 
 def test_steps_set_from_code_are_shown_with_one_notification(steps, told):

@@ -286,3 +286,24 @@ def test_picks_that_are_not_finished_are_not_scolded(app, case):
     said = (app.status.line.value, *(row.message.value for row in app.picker.list.rows("fault").values()))
     assert "F2" in "".join(said)
     assert not any('role="alert"' in text or "problem" in text for text in said)
+
+
+def test_a_rest_that_turns_can_be_kept_by_a_button_which_undo_takes_back(new_app):
+    case = sw.synthetic.tilt()
+    (bed,) = case.interpretation.horizons[0].pieces
+    picks = sw.Interpretation(horizons=[sw.Horizon(bed[bed[:, 0] < 700], name="H1")])
+    app = new_app(case.section, picks)
+    assert app.wait(30)
+    assert "the rest turns" in app.status.text
+    assert "“beyond its ends”" in app.status.text
+    shown = [button.description for button in app.status.offers.children]
+    assert shown == ["Leave the rest", "Extend level", "Extend along trend"]
+    app.status.offers.children[0].click()
+    assert [step.beyond for step in app.steps] == ["free", "keep"]
+    assert app.workspace.history.next_undo.label == "leave the rest of H1"
+    assert app.wait(30)
+    far = case.section.extent[1] - 50, case.section.extent[3] - 50
+    np.testing.assert_allclose(app.restoration.to_restored([far]), [far], atol=1e-6)
+    assert app.status.offers.layout.display == "none"
+    app.picker.editor.undo()
+    assert app.steps == sw.Plan().steps

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
 
 from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError, Text
+from seiswidgets.geology.beyond import FREE
 from seiswidgets.geology.bodies import SALT
 from seiswidgets.geology.hypothesis import FIRST_NAME
 from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends
@@ -328,6 +329,7 @@ def _steps(entry: Entry) -> tuple[Step, ...]:
             step.optional("datum", Entry.number, None),
             step.optional("on", Entry.flag, True),
             step.optional("slip", _slip, {}),
+            step.optional("beyond", Entry.text, FREE),
         )
         for step in entry.items()
     )

@@ -5,7 +5,7 @@ from dataclasses import replace
 from ipywidgets import HTML, VBox
 
 from seiswidgets.geology.restoration import Restoration
-from seiswidgets.widgets.messages import HINT
+from seiswidgets.widgets.messages import HINT, in_the_app
 from seiswidgets.widgets.severity import remark
 from seiswidgets.widgets.verdict import title_of
 
@@ -26,6 +26,8 @@ class Reports(VBox):
 
     def show(self, restoration: Restoration) -> None:
         """Show the findings of a restoration, worst first, and below them the reports on its stages."""
-        remarks = [remark(finding.severity, finding.text, title_of(finding)) for finding in restoration.findings]
+        remarks = [
+            remark(finding.severity, in_the_app(finding.text), title_of(finding)) for finding in restoration.findings
+        ]
         tables = [replace(stage.report, findings=())._repr_html_() for stage in restoration.stages]
         self.page.value = "".join([*remarks, *tables]) or NOTHING

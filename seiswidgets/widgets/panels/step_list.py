@@ -12,12 +12,19 @@ from traitlets import Bunch, Instance, Tuple, Unicode, observe, validate
 
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
+from seiswidgets.geology.beyond import FREE, KEEP, LEVEL, TREND
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.geology.plan import FLATTEN, UNFAULT, Plan, Step
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.key_guard import KeyGuard
 
 ALL = {UNFAULT: "all faults", FLATTEN: "first horizon"}  # what a step without picks works on
+BEYOND_ENDS = {
+    FREE: "the rest turns with it",
+    KEEP: "keep: the rest stays",
+    LEVEL: "level: extend it level",
+    TREND: "trend: extend it along its trend",
+}
 ICONS = {"up": "arrow-up", "down": "arrow-down", "remove": "trash"}
 TOOLTIPS = {"up": "Do this step earlier", "down": "Do this step later", "remove": "Remove this step"}
 ALERT = '<span role="alert" style="color: var(--jp-error-color1, #b71c1c)">{}</span>'
@@ -33,7 +40,7 @@ class StepRow(VBox):
         Faults and horizons to choose from.
     z_unit : str
         Unit of the datum.
-    enabled, choice, datum : Checkbox, Dropdown, Text
+    enabled, choice, datum, beyond : Checkbox, Dropdown, Text, Dropdown
     up, down, remove : Button
         Buttons that the list acts on.
     error : HTML
@@ -56,12 +63,20 @@ class StepRow(VBox):
             style={"description_width": "initial"},
             layout=Layout(width="176px"),
         )
+        self.beyond = Dropdown(
+            options=[(label, choice) for choice, label in BEYOND_ENDS.items()],
+            description="beyond its ends",
+            tooltip="What happens to the rock beyond the ends of a horizon that does not cross the section",
+            style={"description_width": "initial"},
+            layout=Layout(width="auto"),
+        )
         self.error = HTML(layout=Layout(display="none"))
         self.up, self.down, self.remove = (_button(name) for name in ICONS)
         self.enabled.observe(lambda change: self._change(on=change.new), "value")
         self.choice.observe(lambda change: self._change(picks=change.new), "value")
         self.datum.observe(self._take_datum, "value")
-        controls = [self.enabled, self.choice, self.datum, self.up, self.down, self.remove]
+        self.beyond.observe(lambda change: self._change(beyond=change.new), "value")
+        controls = [self.enabled, self.choice, self.datum, self.beyond, self.up, self.down, self.remove]
         line = HBox(controls, layout=Layout(flex_flow="row wrap"))
         super().__init__([line, self.error], step=step, interpretation=interpretation, z_unit=z_unit)
 
@@ -90,7 +105,8 @@ class StepRow(VBox):
         self.enabled.description, self.enabled.value = self.step.kind, self.step.on
         self._offer_picks()
         self.datum.description = f"datum ({self.z_unit})"
-        self.datum.layout.display = "" if self.step.kind == FLATTEN else "none"
+        self.datum.layout.display = self.beyond.layout.display = "" if self.step.kind == FLATTEN else "none"
+        self.beyond.value = self.step.beyond
         if change.name == "step" and change.new != change.old:  # else a datum may be half typed
             self.datum.value = "" if self.step.datum is None else _exact(self.step.datum)
             self._show_error("")
