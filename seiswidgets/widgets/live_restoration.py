@@ -216,7 +216,8 @@ def _needs_restoration(old: Document, new: Document) -> bool:
 
 def _softened(verdict: Verdict | None) -> list[Finding]:
     """Findings of a verdict; those about a drawing in progress are notes."""
+    early = INCOMPLETE | ({"beyond"} if verdict and verdict.is_incomplete else set())
     return [
-        replace(finding, severity="note") if finding.kind in INCOMPLETE else finding
+        replace(finding, severity="note") if finding.kind in early else finding
         for finding in (verdict.findings if verdict else ())
     ]

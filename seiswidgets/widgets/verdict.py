@@ -63,9 +63,12 @@ class Verdict:
 
     @property
     def is_incomplete(self) -> bool:
-        """True if nothing is wrong except that some picks need another line before they can constrain."""
-        grave = [finding for finding in self.findings if finding.severity != "note"]
-        return bool(grave) and all(finding.kind in INCOMPLETE for finding in grave)
+        """True if nothing is wrong except that some picks need another line before they can constrain.
+
+        Until then a horizon is short, too.
+        """
+        grave = {finding.kind for finding in self.findings if finding.severity != "note"}
+        return bool(grave & INCOMPLETE) and grave <= INCOMPLETE | {"beyond"}
 
     @property
     def is_good(self) -> bool:
