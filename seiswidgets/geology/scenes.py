@@ -14,6 +14,7 @@ ACTIONS = {
     "decompact": "decompaction",
     "isostasy": "isostasy",
 }
+WHOLE = ("decompact", "isostasy")
 
 
 @dataclass(frozen=True)
@@ -53,5 +54,6 @@ def scenes(stages: Sequence[Stage]) -> tuple[Scene, ...]:
 
 
 def action(stage: Stage) -> str:
-    """What a stage does, and to which picks: "unfaulting F1, F2"."""
-    return " ".join([ACTIONS.get(stage.kind, stage.kind), " and ".join(stage.outcome.picks)]).strip()
+    """What a stage does, and to which picks unless it is to all rock: "unfaulting F1 and F2"."""
+    picks = () if stage.kind in WHOLE else stage.outcome.picks
+    return " ".join([ACTIONS.get(stage.kind, stage.kind), " and ".join(picks)]).strip()

@@ -18,6 +18,7 @@ from seiswidgets.interaction.viewport import Viewport
 SAMPLE_DISTANCE = 2.0  # css pixels between the points at which a line is mapped
 MOST_SAMPLES = 4000  # per line
 OFFSET = 0.02  # css pixels that a line is moved off a fault, so that it belongs to one side
+BESIDE = 0.5  # css pixels that a point may lie above or below the rock
 JUMP = 3.0  # a step that grows by more than this factor crosses a fault
 TOLERANCE = 0.1  # traces and samples that a simplified line may be off
 
@@ -66,7 +67,7 @@ class PaneProjection:
         lines : sequence of (points, side)
             Points of shape (n, 2), and their side as by `side_of`.
         """
-        return _mapped_together(self.to_pane, self._moved_off_faults(lines))
+        return _mapped_together(self.to_pane, self._moved_off_faults(lines), self.view.pixel)
 
     def vertex_pixels(self, points: ArrayLike, side: int = 0) -> np.ndarray:
         """Css pixels in the pane of the vertices of one present-day line, shape (n, 2)."""
@@ -156,14 +157,22 @@ def _moved_off_fault(points: ArrayLike, pixel: np.ndarray, side: int) -> np.ndar
 def _mapped(lines: Sequence[np.ndarray], point_map: Map, view: Viewport) -> list[list[np.ndarray]]:
     """Map lines, each to one or more runs, which are simplified."""
     dense = [_densified(line, view.pixel)[0] for line in lines]
-    mapped = _mapped_together(point_map, dense)
+    mapped = _mapped_together(point_map, dense, view.pixel)
     return [_runs(before, after, view.section) for before, after in zip(dense, mapped, strict=True)]
 
 
-def _mapped_together(point_map: Map, lines: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """Map the points of lines in a single call."""
-    lengths = [len(line) for line in lines]
-    return np.split(point_map(np.concatenate([np.empty((0, 2)), *lines])), np.cumsum(lengths)[:-1]) if lines else []
+def _mapped_together(point_map: Map, lines: Sequence[np.ndarray], pixel: np.ndarray) -> list[np.ndarray]:
+    """Map the points of lines together; those just above or below the rock go with it, as on a border."""
+    if not lines:
+        return []
+    points = np.concatenate(lines)
+    mapped = point_map(points)
+    for nudge in (BESIDE, -BESIDE):
+        lost = np.isnan(mapped).any(axis=1)
+        if lost.any():
+            mapped = np.array(mapped)
+            mapped[lost] = point_map(points[lost] + [0, nudge * pixel[1]])
+    return np.split(mapped, np.cumsum([len(line) for line in lines])[:-1])
 
 
 def _runs(before: np.ndarray, after: np.ndarray, section: Section) -> list[np.ndarray]:

@@ -82,3 +82,13 @@ def test_a_body_is_shown_with_the_rock_around_it(case):
         rows = shown[np.isfinite(shown).all(axis=1)]
         assert len(rows) >= len(corners)
         assert shapely.LineString(border).distance(shapely.points(rows)).max() < 1
+
+
+def test_a_horizon_that_became_the_border_is_not_interrupted():
+    case = sw.synthetic.half_graben(dx=25, dz=10)
+    top, faults = case.interpretation.horizon("H2"), case.interpretation.faults
+    restored = sw.Restoration(case.section).strip(top, faults=faults).unfault(faults, [top], fixed=case.fixed)
+    projection = PaneProjection(Viewport(case.section), restored)
+    for piece, line in zip(top.pieces, projection.lines([(piece, 0) for piece in top.pieces]), strict=True):
+        assert np.isnan(line[:, 0]).sum() == 1  # at its end
+        assert np.ptp(line[:-1, 0]) > 0.98 * np.ptp(piece[:, 0])

@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 import seiswidgets as sw
 from tests.io.restored import restored
 from tests.widgets.axe import serious
-from tests.widgets.browser import Page, keep_picture
+from tests.widgets.browser import Page, awaited, keep_picture
 
 PIXELS = """(name) => document.querySelector(`#${name} canvas`).toDataURL()"""
 CROSS = """(name) => {
@@ -123,7 +123,7 @@ def test_time_moves_the_rock_and_the_picks_and_play_ends_at_the_end(handout):
     page.page.get_by_role("button", name="Play").click()
     page.page.get_by_role("button", name="Pause").wait_for()
     expect(page.page.locator("#time output")).to_have_text("restored")
-    assert page.pixels("restored") == end
+    awaited(lambda: page.pixels("restored"), lambda found: found == end, "the fine picture of the end")
     assert line.get_attribute("d") == restored_line
 
 

@@ -9,7 +9,7 @@ from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.pick_colours import PickColours, pick_colours
 from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
 from seiswidgets.geology.restoration import Restoration
-from seiswidgets.geology.scenes import action, scenes
+from seiswidgets.geology.scenes import Scene, action, scenes
 from seiswidgets.interaction.colour import Colouring, RatioColouring
 from seiswidgets.interaction.live_state import TextureSource, colours_state, grid_state, stage_state, triangles_state
 from seiswidgets.interaction.overlay import Stroke
@@ -39,7 +39,7 @@ def handout_state(
         "texture": source.whole,
         "stages": [stage_state(section, stage) for stage in restored.stages],
         "triangles": [triangles_state(stage) for stage in restored.stages],
-        "names": [action(stage) for stage in restored.stages],
+        "names": [Scene(0, action(stage), stage.age).label for stage in restored.stages],
         "scenes": [{"count": scene.count, "label": scene.label} for scene in scenes(restored.stages)],
         "colours": colours_state(colouring, source.scale),
         "ratios": {"palette": ratios.palette().tobytes(), "span": ratios.span, "axis": ratio_axis(ratios)},

@@ -467,6 +467,7 @@ function angles(start2, stop, blocks2, masses) {
 }
 
 // picture/live_chain.js
+var NUDGES = [0, 0.05, -0.05];
 var Stage = class _Stage {
   /**
    * @param {Numbers} before
@@ -569,9 +570,11 @@ var LiveChain = class {
     );
     for (let index = end - 1; index >= 0 && at; index--) {
       const { toOriginal } = this.stages[index];
-      const triangle = toOriginal.finder.find(at.x, at.z);
-      if (triangle < 0) return null;
-      const weights = toOriginal.finder.weights(triangle, at.x, at.z);
+      const { x, z } = at;
+      const within2 = NUDGES.find((nudge) => toOriginal.finder.find(x, z + nudge) >= 0);
+      if (within2 === void 0) return null;
+      const triangle = toOriginal.finder.find(x, z + within2);
+      const weights = toOriginal.finder.weights(triangle, x, z + within2);
       if (index < stages.length) return stages[index].toRestored.carried(triangle, weights);
       at = toOriginal.carried(triangle, weights);
     }

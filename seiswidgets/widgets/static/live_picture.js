@@ -396,6 +396,7 @@ function angles(start, stop, blocks2, masses) {
 }
 
 // picture/live_chain.js
+var NUDGES = [0, 0.05, -0.05];
 var Stage = class _Stage {
   /**
    * @param {Numbers} before
@@ -498,9 +499,11 @@ var LiveChain = class {
     );
     for (let index = end - 1; index >= 0 && at; index--) {
       const { toOriginal } = this.stages[index];
-      const triangle = toOriginal.finder.find(at.x, at.z);
-      if (triangle < 0) return null;
-      const weights = toOriginal.finder.weights(triangle, at.x, at.z);
+      const { x, z } = at;
+      const within = NUDGES.find((nudge) => toOriginal.finder.find(x, z + nudge) >= 0);
+      if (within === void 0) return null;
+      const triangle = toOriginal.finder.find(x, z + within);
+      const weights = toOriginal.finder.weights(triangle, x, z + within);
       if (index < stages.length) return stages[index].toRestored.carried(triangle, weights);
       at = toOriginal.carried(triangle, weights);
     }

@@ -9,6 +9,8 @@ import { Motion } from "./motion.js";
 /** @typedef {import("../maps/triangle_finder.js").Numbers} Numbers */
 /** @typedef {import("../maps/piecewise_affine_map.js").Point} Point */
 
+const NUDGES = [0, 0.05, -0.05]; // samples: a line on the border may lie just outside the rock
+
 /**
  * @typedef {object} StageState
  * @property {DataView} before
@@ -139,9 +141,11 @@ export class LiveChain {
     let at = /** @type {Point | null} */ (point);
     for (let index = end - 1; index >= 0 && at; index--) {
       const { toOriginal } = this.stages[index];
-      const triangle = toOriginal.finder.find(at.x, at.z);
-      if (triangle < 0) return null;
-      const weights = toOriginal.finder.weights(triangle, at.x, at.z);
+      const { x, z } = at;
+      const within = NUDGES.find((nudge) => toOriginal.finder.find(x, z + nudge) >= 0);
+      if (within === undefined) return null;
+      const triangle = toOriginal.finder.find(x, z + within);
+      const weights = toOriginal.finder.weights(triangle, x, z + within);
       if (index < stages.length) return stages[index].toRestored.carried(triangle, weights);
       at = toOriginal.carried(triangle, weights);
     }
