@@ -71,10 +71,10 @@ class AppScreen:
         return settled(lambda: [part.evaluate("one => one.outerHTML") for part in parts])
 
     def paths(self, number=0):
-        """The SVG paths of all lines in a pane."""
+        """The SVG paths of all lines in a pane, also of their thin parts near cut-offs."""
         return (
             self.plots.nth(number)
-            .locator(".stroke .line")
+            .locator(".stroke :is(.line, .thin)")
             .evaluate_all("all => all.map((one) => one.getAttribute('d'))")
         )
 

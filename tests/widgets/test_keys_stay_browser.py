@@ -205,3 +205,33 @@ def test_no_key_in_the_app_reaches_notebook_7(elsewhere):
     assert page.locator(".jp-Cell").count() == page.locator(".jp-CodeCell").count() == 2
     assert page.locator(".seiswidgets-app").is_visible()
     assert page.locator(".jp-CodeCell .jp-InputPrompt").first.inner_text() == prompt
+
+
+# VS Code's page of an output: it forwards keys to the notebook, and keeps some from the browser.
+VS_CODE = """() => {
+  window.forwarded = [];
+  const { signal } = (window.listening = new AbortController());
+  for (const type of ["keydown", "keyup"])
+    window.addEventListener(type, (event) => {
+      if (event.ctrlKey && ["z", "y", "f", "s", "p"].includes(event.key)) event.preventDefault();
+      forwarded.push(event.key);
+    }, { signal });
+}"""
+VS_CODE_KEYS = [*"ddabxmyjk", "ArrowUp", "ArrowDown", "Enter", "Escape", "Delete", "Shift+Enter", "Control+z"]
+
+
+def test_vs_code_forwards_no_key_from_the_app(open_app):
+    screen = open_app(FEW)
+    page = screen.page
+    page.evaluate(VS_CODE)
+    parts = (".plot", "button[data-value=Fault]", "[role=tab]", "select", "input[type=number]", "[role=slider]")
+    for part in (*parts, "[role=separator]", ".seiswidgets-maximise button"):
+        target = page.locator(f".seiswidgets-app {part}").locator("visible=true").first
+        for key in VS_CODE_KEYS:
+            target.focus()
+            screen.press(key)
+        assert page.evaluate("forwarded") == [], part
+    page.evaluate("document.activeElement.blur()")
+    screen.press("F8")
+    assert page.evaluate("forwarded") == ["F8", "F8"]
+    page.evaluate("listening.abort()")

@@ -5,6 +5,7 @@ import { drawChart, MARGIN } from "./histogram/chart.js";
 import { Scale } from "./histogram/scale.js";
 import { keepKeys } from "./shared/keep_keys.js";
 import { append } from "./shared/svg.js";
+import { unscaledPosition, unscaledSize } from "./shared/unscaled.js";
 
 const HELP = "Arrow keys brush a bar, with Shift several; Escape clears.";
 const SUMMARY_TOOLTIP = "Half, 1% and 99% of the area have a lower area ratio.";
@@ -102,7 +103,7 @@ function createBrush(model, getSize) {
 /** @type {import("@anywidget/types").Render<Traits>} */
 function render({ model, el }) {
   const { summary, brushed, log, chart, drawing } = createElements(el);
-  let size = { width: 0, height: 0 };
+  let [whole, size] = [1, 2].map(() => ({ width: 0, height: 0 })); // of the chart, and of its bars
 
   function draw() {
     const bars = barsOf(model);
@@ -118,12 +119,12 @@ function render({ model, el }) {
   }
 
   const observer = new ResizeObserver(() => {
-    const box = chart.getBoundingClientRect();
-    size = { width: box.width - MARGIN.left - MARGIN.right, height: box.height - MARGIN.top - MARGIN.bottom };
+    whole = unscaledSize(chart);
+    size = { width: whole.width - MARGIN.left - MARGIN.right, height: whole.height - MARGIN.top - MARGIN.bottom };
     draw();
   });
   const controller = new AbortController();
-  const xOf = (/** @type {PointerEvent} */ event) => event.clientX - chart.getBoundingClientRect().left - MARGIN.left;
+  const xOf = (/** @type {PointerEvent} */ event) => unscaledPosition(event, chart, whole).x - MARGIN.left;
   createBrush(model, () => size).listenTo(chart, xOf, controller.signal);
   log.addEventListener("click", () => {
     model.set("log_shares", !model.get("log_shares"));

@@ -84,6 +84,7 @@ export function mount(model, el, throttles) {
   const observer = new ResizeObserver(() => view.reportSize());
   observer.observe(plot);
   window.addEventListener("resize", () => view.reportSize(), { signal }); // the browser's own zoom
+  window.addEventListener("pointermove", () => view.followScale(), { signal });
   const stop = () => {
     controller.abort();
     observer.disconnect();

@@ -269,12 +269,28 @@ function keepKeys(findBox) {
     if (event.target instanceof Element) event.target.setAttribute(SUPPRESS, "true");
     box.addEventListener(event.type, stopPropagation, { signal });
   };
-  listen("keydown", keep);
-  listen("keypress", keep);
+  for (
+    const type of
+    /** @type {const} */
+    ["keydown", "keypress", "keyup"]
+  ) listen(type, keep);
   listen("pointerdown", (_, box) => {
     if (!box.hasAttribute("tabindex")) box.tabIndex = -1;
   });
   return () => controller.abort();
+}
+
+// shared/unscaled.js
+function unscaledSize(element) {
+  const { width, height } = getComputedStyle(element);
+  return { width: Number.parseFloat(width), height: Number.parseFloat(height) };
+}
+function unscaledPosition(event, element, { width, height }) {
+  const box = element.getBoundingClientRect();
+  return {
+    x: (event.clientX - box.left) * width / box.width,
+    y: (event.clientY - box.top) * height / box.height
+  };
 }
 
 // histogram.js
@@ -339,7 +355,7 @@ function createBrush(model, getSize) {
 }
 function render({ model, el }) {
   const { summary, brushed, log, chart, drawing } = createElements(el);
-  let size = { width: 0, height: 0 };
+  let [whole, size] = [1, 2].map(() => ({ width: 0, height: 0 }));
   function draw() {
     const bars = barsOf(model);
     summary.textContent = model.get("summary");
@@ -353,12 +369,12 @@ function render({ model, el }) {
     else drawing.replaceChildren();
   }
   const observer = new ResizeObserver(() => {
-    const box = chart.getBoundingClientRect();
-    size = { width: box.width - MARGIN.left - MARGIN.right, height: box.height - MARGIN.top - MARGIN.bottom };
+    whole = unscaledSize(chart);
+    size = { width: whole.width - MARGIN.left - MARGIN.right, height: whole.height - MARGIN.top - MARGIN.bottom };
     draw();
   });
   const controller = new AbortController();
-  const xOf = (event) => event.clientX - chart.getBoundingClientRect().left - MARGIN.left;
+  const xOf = (event) => unscaledPosition(event, chart, whole).x - MARGIN.left;
   createBrush(model, () => size).listenTo(chart, xOf, controller.signal);
   log.addEventListener("click", () => {
     model.set("log_shares", !model.get("log_shares"));

@@ -331,7 +331,7 @@ function openMenu(el, labels, position, choose) {
   });
   menu.addEventListener("contextmenu", (event) => event.preventDefault());
   el.append(menu);
-  const { width, height } = el.getBoundingClientRect();
+  const { offsetWidth: width, offsetHeight: height } = el;
   menu.style.left = `${Math.max(0, Math.min(position.x, width - menu.offsetWidth))}px`;
   menu.style.top = `${Math.max(0, Math.min(position.y, height - menu.offsetHeight))}px`;
   items[0]?.focus({ preventScroll: true });
@@ -1242,10 +1242,10 @@ var LivePane = class {
     this.requestDraw(["bare"]);
   }
   /** @param {import("./plot_area.js").PlotArea} plotArea */
-  drawPicture({ width, height, model }) {
+  drawPicture({ width, height, pixelRatio, model }) {
     const { picture, canvas } = this;
     if (!picture) return;
-    const ratio = Math.max(window.devicePixelRatio || 1, this.leastRatio);
+    const ratio = Math.max(pixelRatio, this.leastRatio);
     const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     if (this.pixels.width !== size.width || this.pixels.height !== size.height)
@@ -1438,7 +1438,21 @@ function pathCoordinates(vertices, plotArea) {
   return [xs, ys];
 }
 
+// shared/unscaled.js
+function unscaledSize(element) {
+  const { width, height } = getComputedStyle(element);
+  return { width: Number.parseFloat(width), height: Number.parseFloat(height) };
+}
+function unscaledPosition(event, element, { width, height }) {
+  const box = element.getBoundingClientRect();
+  return {
+    x: (event.clientX - box.left) * width / box.width,
+    y: (event.clientY - box.top) * height / box.height
+  };
+}
+
 // pointer_layer/plot_area.js
+var MOST_ENLARGED = 4;
 var PlotArea = class {
   /**
    * @param {Pick<import("./types.js").Model, "get">} model
@@ -1452,8 +1466,7 @@ var PlotArea = class {
   }
   /** Read the present size, before any scaling of the page; false if the plot area is not shown. */
   measure() {
-    const style = getComputedStyle(this.plot);
-    const [width, height] = [style.width, style.height].map(Number.parseFloat);
+    const { width, height } = unscaledSize(this.plot);
     if (!(width >= 1 && height >= 1)) return false;
     [this.width, this.height] = [width, height];
     return true;
@@ -1502,9 +1515,12 @@ var PlotArea = class {
    * @returns {Pixel}
    */
   pointerPosition(event) {
-    const box = this.plot.getBoundingClientRect();
-    const [across, down] = [this.width / box.width, this.height / box.height];
-    return { x: (event.clientX - box.left) * across, y: (event.clientY - box.top) * down };
+    return unscaledPosition(event, this.plot, this);
+  }
+  /** Device pixels per css pixel, to three decimals; more on a page that is enlarged. */
+  get pixelRatio() {
+    const enlarged = Math.min(MOST_ENLARGED, this.plot.getBoundingClientRect().width / this.width || 1);
+    return Number(((window.devicePixelRatio || 1) * enlarged).toFixed(3));
   }
 };
 
@@ -1699,6 +1715,7 @@ var LayerView = class {
     this.outdated = /* @__PURE__ */ new Set();
     this.isScheduled = false;
     this.hasReported = false;
+    this.pixelRatio = 1;
     this.restTimer = void 0;
   }
   /**
@@ -1780,6 +1797,10 @@ var LayerView = class {
     this.carryPointer();
     this.requestDraw(["cursors"]);
   }
+  /** Draw for the present scale of the page: no event tells that it has changed. */
+  followScale() {
+    if (this.plotArea.pixelRatio !== this.pixelRatio) this.reportSize();
+  }
   /** Set the carried position. It is never saved: other layers need it, the kernel does not. */
   carryPointer() {
     if (!this.plotArea.isReady) return;
@@ -1810,8 +1831,9 @@ var LayerView = class {
     if (!this.plotArea.measure()) return;
     const canvases = this.el.parentElement?.querySelectorAll(":scope > canvas");
     for (const canvas of canvases ?? []) canvas.inert = true;
-    const { width, height } = this.plotArea;
-    this.model.send({ kind: "size", width, height, ratio: window.devicePixelRatio || 1, fresh: !this.hasReported });
+    const { width, height, pixelRatio: ratio } = this.plotArea;
+    this.pixelRatio = ratio;
+    this.model.send({ kind: "size", width, height, ratio, fresh: !this.hasReported });
     this.hasReported = true;
     this.requestDraw(ALL_PARTS);
   }
@@ -1834,8 +1856,11 @@ function keepKeys(findBox) {
     if (event.target instanceof Element) event.target.setAttribute(SUPPRESS, "true");
     box.addEventListener(event.type, stopPropagation, { signal });
   };
-  listen("keydown", keep);
-  listen("keypress", keep);
+  for (
+    const type of
+    /** @type {const} */
+    ["keydown", "keypress", "keyup"]
+  ) listen(type, keep);
   listen("pointerdown", (_, box) => {
     if (!box.hasAttribute("tabindex")) box.tabIndex = -1;
   });
@@ -1909,6 +1934,7 @@ function mount(model, el, throttles) {
   const observer = new ResizeObserver(() => view.reportSize());
   observer.observe(plot);
   window.addEventListener("resize", () => view.reportSize(), { signal });
+  window.addEventListener("pointermove", () => view.followScale(), { signal });
   const stop = () => {
     controller.abort();
     observer.disconnect();

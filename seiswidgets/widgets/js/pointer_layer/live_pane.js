@@ -108,10 +108,10 @@ export class LivePane {
   }
 
   /** @param {import("./plot_area.js").PlotArea} plotArea */
-  drawPicture({ width, height, model }) {
+  drawPicture({ width, height, pixelRatio, model }) {
     const { picture, canvas } = this;
     if (!picture) return;
-    const ratio = Math.max(window.devicePixelRatio || 1, this.leastRatio);
+    const ratio = Math.max(pixelRatio, this.leastRatio);
     const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     if (this.pixels.width !== size.width || this.pixels.height !== size.height)

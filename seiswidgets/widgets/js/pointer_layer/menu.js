@@ -46,7 +46,7 @@ export function openMenu(el, labels, position, choose) {
   });
   menu.addEventListener("contextmenu", (event) => event.preventDefault());
   el.append(menu);
-  const { width, height } = el.getBoundingClientRect();
+  const { offsetWidth: width, offsetHeight: height } = el;
   menu.style.left = `${Math.max(0, Math.min(position.x, width - menu.offsetWidth))}px`;
   menu.style.top = `${Math.max(0, Math.min(position.y, height - menu.offsetHeight))}px`;
   items[0]?.focus({ preventScroll: true });

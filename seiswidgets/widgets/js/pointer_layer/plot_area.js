@@ -1,6 +1,10 @@
 // Coordinates in the plot area. The kernel may know another size of it than this view has: it sends and receives
 // positions in its own pixels.
 
+import { unscaledPosition, unscaledSize } from "../shared/unscaled.js";
+
+const MOST_ENLARGED = 4; // times, beyond which the picture may be coarse
+
 /** @typedef {import("./types.js").Pixel} Pixel */
 
 /** The plot area of one view, with conversions between section, css pixels and the kernel's pixels. */
@@ -18,8 +22,7 @@ export class PlotArea {
 
   /** Read the present size, before any scaling of the page; false if the plot area is not shown. */
   measure() {
-    const style = getComputedStyle(this.plot);
-    const [width, height] = [style.width, style.height].map(Number.parseFloat);
+    const { width, height } = unscaledSize(this.plot);
     if (!(width >= 1 && height >= 1)) return false;
     [this.width, this.height] = [width, height];
     return true;
@@ -75,8 +78,12 @@ export class PlotArea {
    * @returns {Pixel}
    */
   pointerPosition(event) {
-    const box = this.plot.getBoundingClientRect(); // scaled as the page is, for example on a slide
-    const [across, down] = [this.width / box.width, this.height / box.height];
-    return { x: (event.clientX - box.left) * across, y: (event.clientY - box.top) * down };
+    return unscaledPosition(event, this.plot, this);
+  }
+
+  /** Device pixels per css pixel, to three decimals; more on a page that is enlarged. */
+  get pixelRatio() {
+    const enlarged = Math.min(MOST_ENLARGED, this.plot.getBoundingClientRect().width / this.width || 1);
+    return Number(((window.devicePixelRatio || 1) * enlarged).toFixed(3));
   }
 }

@@ -76,6 +76,7 @@ export class LayerView {
     this.outdated = new Set();
     this.isScheduled = false;
     this.hasReported = false;
+    this.pixelRatio = 1; // that the kernel knows
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.restTimer = undefined;
   }
@@ -171,6 +172,11 @@ export class LayerView {
     this.requestDraw(["cursors"]);
   }
 
+  /** Draw for the present scale of the page: no event tells that it has changed. */
+  followScale() {
+    if (this.plotArea.pixelRatio !== this.pixelRatio) this.reportSize();
+  }
+
   /** Set the carried position. It is never saved: other layers need it, the kernel does not. */
   carryPointer() {
     if (!this.plotArea.isReady) return;
@@ -205,8 +211,9 @@ export class LayerView {
     /** @type {NodeListOf<HTMLElement> | undefined} */
     const canvases = this.el.parentElement?.querySelectorAll(":scope > canvas");
     for (const canvas of canvases ?? []) canvas.inert = true; // ipycanvas would take the focus and trap Tab
-    const { width, height } = this.plotArea;
-    this.model.send({ kind: "size", width, height, ratio: window.devicePixelRatio || 1, fresh: !this.hasReported });
+    const { width, height, pixelRatio: ratio } = this.plotArea;
+    this.pixelRatio = ratio;
+    this.model.send({ kind: "size", width, height, ratio, fresh: !this.hasReported });
     this.hasReported = true;
     this.requestDraw(ALL_PARTS);
   }
