@@ -17,8 +17,11 @@ function keepKeys(findBox) {
     if (event.target instanceof Element) event.target.setAttribute(SUPPRESS, "true");
     box.addEventListener(event.type, stopPropagation, { signal });
   };
-  listen("keydown", keep);
-  listen("keypress", keep);
+  for (
+    const type of
+    /** @type {const} */
+    ["keydown", "keypress", "keyup"]
+  ) listen(type, keep);
   listen("pointerdown", (_, box) => {
     if (!box.hasAttribute("tabindex")) box.tabIndex = -1;
   });
