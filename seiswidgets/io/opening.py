@@ -11,7 +11,15 @@ from seiswidgets.errors import DataError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.files import existing_file
 from seiswidgets.io.info import SectionInfo
-from seiswidgets.io.options import DAMAGED, LayoutKeywords, OpenKeywords, OpenOptions, Progress, report_progress
+from seiswidgets.io.options import (
+    DAMAGED,
+    PICTURE_OPTIONS,
+    LayoutKeywords,
+    OpenKeywords,
+    OpenOptions,
+    Progress,
+    report_progress,
+)
 from seiswidgets.io.rasters.arrays import open_array, open_text, preview_array, preview_text
 from seiswidgets.io.rasters.images import open_picture, preview_picture
 from seiswidgets.io.segy.layout import begins_like_segy
@@ -70,6 +78,14 @@ def open_section(path: str | PathLike, *, progress: Progress | None = None, **op
     extent : (x_min, x_max, z_min, z_max), optional
         For an image or a matrix, instead of spacing and origin: positions of the first and last trace and sample,
         which are the centres of its corner cells.
+    crop : (left, right, top, bottom), optional
+        For an image: the first and last column and the first and last row of pixels to keep, counted from 0. ``extent``
+        is then that of the part that is kept.
+    calibration : dict, optional
+        For an image, instead of spacing and origin: two points with known values on each axis, in pixels of the whole
+        image, as in ``{"x": [(120, 40, 0), (1480, 40, 10000)], "z": [(118, 60, 0), (118, 800, 2000)]}``, each a column,
+        a row and a value. Values of z increase downwards; where those of x decrease to the right, the image is
+        mirrored. A warning says so if an axis is rotated by more than a degree; ``"deskew": True`` straightens it.
     x_unit : str, optional
         Unit of dx or of the file's positions: metres, or feet where a SEG-Y file says so.
     z_unit : str, optional
@@ -109,7 +125,10 @@ def open_section(path: str | PathLike, *, progress: Progress | None = None, **op
     path = existing_file(path)
     checked = OpenOptions(**options)
     with _read_errors_as_data_errors(path):
-        section = READERS[_kind(path)].open(path, checked, progress)
+        kind = _kind(path)
+        if kind != "picture":
+            checked.refuse(PICTURE_OPTIONS, f"{kind}; only a picture can be cropped or calibrated")
+        section = READERS[kind].open(path, checked, progress)
     report_progress(progress, 1.0)
     return section
 

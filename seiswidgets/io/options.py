@@ -16,6 +16,7 @@ Progress = Callable[[float], bool | None]
 LAYOUT_OPTIONS = ("header_bytes", "sample_format", "byte_order", "revision")  # of SEG-Y
 SEGY_OPTIONS = ("inline", "crossline", "offset", "traces", *LAYOUT_OPTIONS)
 AXIS_OPTIONS = ("dx", "dz", "x0", "z0")
+PICTURE_OPTIONS = ("crop", "calibration")
 DAMAGED = (  # raised by other libraries' readers on damaged files; some of them are surprising
     ArithmeticError,
     EOFError,
@@ -32,6 +33,8 @@ EXPECTED_TYPES: dict[str, tuple[Any, str]] = {  # of the options that are checke
     **dict.fromkeys(("inline", "crossline", "offset"), (Integral, "a whole number")),
     "traces": ((slice, range), "a slice or a range"),
     "header_bytes": (Mapping, 'a dictionary such as {"x": 73, "y": 77}'),
+    "crop": ((list, tuple), "four whole numbers (first column, last column, first row, last row)"),
+    "calibration": (Mapping, "a dictionary with two points on each axis"),
 }
 
 
@@ -61,6 +64,8 @@ class OpenKeywords(LineKeywords, total=False):
     x0: float | None
     z0: float | None
     extent: tuple[float, float, float, float] | None
+    crop: tuple[int, int, int, int] | None
+    calibration: Mapping[str, Any] | None
     x_unit: str | None
     z_unit: str | None
     velocity: float | None

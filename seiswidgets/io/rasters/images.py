@@ -15,7 +15,8 @@ from seiswidgets.errors import DataError, SeiswidgetsError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.document import shortened
 from seiswidgets.io.info import TIME_OR_DEPTH, SectionInfo
-from seiswidgets.io.options import DAMAGED, SEGY_OPTIONS, OpenOptions, Progress, make_section
+from seiswidgets.io.options import AXIS_OPTIONS, DAMAGED, SEGY_OPTIONS, OpenOptions, Progress, make_section
+from seiswidgets.io.rasters.calibration import ROTATED, Calibration, Window, checked_window
 from seiswidgets.io.rasters.raster import Raster
 
 MOST_PIXELS = 40_000_000
@@ -72,13 +73,42 @@ def open_picture(path: Path, options: OpenOptions, _progress: Progress | None) -
     """
     options.refuse(SEGY_OPTIONS, "a picture")
     options.time_or_depth(path)
+    calibration = _calibration(path, options)
     with _picture(path) as picture:
-        fields = options.axes(path, picture.shape)
+        window = checked_window(options.keywords.get("crop"), picture.shape)
+        fields = {} if calibration else options.axes(path, _shape_of(window))
         amplitude = picture.raster().amplitude()
     if picture.pages > 1:
         message = f"{path} has {picture.pages} pages, of which only the first is read"
         warnings.warn(message, stacklevel=4)  # points to the call of open_section
+    if calibration:
+        amplitude, fields = calibration.calibrated(amplitude, window)
+    else:
+        left, right, top, bottom = window
+        amplitude = amplitude[top : bottom + 1, left : right + 1]
     return make_section(path, amplitude, options, **fields)
+
+
+def _shape_of(window: Window) -> tuple[int, int]:
+    left, right, top, bottom = window
+    return bottom - top + 1, right - left + 1
+
+
+def _calibration(path: Path, options: OpenOptions) -> Calibration | None:
+    """The calibration that was given, if any; warn if its axes are rotated and are to stay so."""
+    given = options.keywords.get("calibration")
+    if given is None:
+        return None
+    options.refuse((*AXIS_OPTIONS, "extent"), "a picture that is calibrated")
+    calibration = Calibration.of(given)
+    angle = calibration.rotation
+    if abs(angle) > ROTATED and not calibration.deskew:
+        message = (
+            f'the axes of {path} are rotated by {angle:.1f} degrees; straighten them by "deskew": True in '
+            "calibration=, or choose both points of an axis on one line"
+        )
+        warnings.warn(message, stacklevel=5)  # points to the call of open_section
+    return calibration
 
 
 def preview_picture(path: Path, options: OpenOptions) -> SectionInfo:
