@@ -48,9 +48,13 @@ class Table:
 
     def _repr_html_(self) -> str:
         head = "".join(f'<th scope="col">{escape(heading)}</th>' for heading in self.headings)
-        rows = ["".join(f"<td>{escape(_text(value))}</td>" for value in row) for row in self.rows]
-        body = "".join(f"<tr>{row}</tr>" for row in rows)
+        body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in self.rows)
         return f"<table><caption>{escape(self.title)}</caption><tr>{head}</tr>{body}</table>"
+
+
+def _cell(value: Value) -> str:
+    side = "left" if isinstance(value, str) else "right"
+    return f'<td style="text-align: {side}; padding: 1px 8px">{escape(_text(value))}</td>'
 
 
 def _text(value: Value) -> str:

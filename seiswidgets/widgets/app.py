@@ -34,6 +34,7 @@ from seiswidgets.widgets.linked_panes import LinkedPanes, Reading
 from seiswidgets.widgets.live_restoration import LiveRestoration
 from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.offers import offers
+from seiswidgets.widgets.panels.analysis import Analysis
 from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList
@@ -44,6 +45,7 @@ from seiswidgets.widgets.status_bar import StatusBar
 from seiswidgets.widgets.timeline import Timeline
 from seiswidgets.widgets.workspace import Workspace
 
+WORKING = ("analysis", "files")  # pages that work in the background
 PATIENCE = 10.0  # seconds that a closing app waits for its threads to end
 
 
@@ -184,6 +186,11 @@ class RestorationApp(WithParts, VBox):
         return step_list
 
     @cached_property
+    def analysis(self) -> Analysis:
+        """Page of the tab Analysis, made when it is first opened."""
+        return Analysis(self.workspace)
+
+    @cached_property
     def files(self) -> FilePanel:
         """Page of the tab File, made when it is first opened."""
         files = FilePanel(self.workspace, self.session_bar)
@@ -205,8 +212,8 @@ class RestorationApp(WithParts, VBox):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all background work is done, as in a script; False after the timeout in seconds."""
-        is_done = all(panel.wait(timeout) for panel in self._opened_files())
-        return is_done and self.session_bar.wait(timeout) and self.restoring.wait(timeout)
+        pages = self._working()  # what they open is restored, and what is restored is measured
+        return all(part.wait(timeout) for part in (*pages, self.session_bar, self.restoring, *pages))
 
     def close(self) -> None:
         """Stop background work, save unsaved edits, remove the app from the page, and free its memory.
@@ -218,7 +225,7 @@ class RestorationApp(WithParts, VBox):
         if self.comm is None:  # closed already, or never opened
             return
         self.restoring.stop()
-        for panel in self._opened_files():
+        for panel in self._working():
             panel.end()
         self.wait(PATIENCE)
         try:
@@ -226,10 +233,10 @@ class RestorationApp(WithParts, VBox):
         finally:
             super().close()
 
-    def _opened_files(self) -> list[FilePanel | StartPage]:
-        """The start page, and the page of the tab File, if they have been opened."""
-        opened: list[FilePanel | StartPage] = [self.start_page] if self.start_page else []
-        return [*opened, self.files] if "files" in vars(self) else opened
+    def _working(self) -> list[Any]:
+        """The start page and the pages of tabs that work in the background, if they have been opened."""
+        opened = [self.start_page] if self.start_page else []
+        return opened + [getattr(self, name) for name in WORKING if name in vars(self)]
 
     def _make_parts(self, height: int | None) -> None:
         workspace = self.workspace
@@ -252,6 +259,7 @@ class RestorationApp(WithParts, VBox):
             Solver=lambda: self.solving,
             Display=lambda: DisplayControls(self.panes),
             Report=lambda: self.reports,
+            Analysis=lambda: self.analysis,
             File=lambda: self.files,
         )
 

@@ -102,7 +102,7 @@ def test_what_no_fault_cuts_off_is_held_and_shows_its_pin(new_app):
     blind = sw.synthetic.blind_fault()
     app = new_app(blind.interpretation, section=blind.section, fixed=(500.0, 1000.0))
     assert app.wait(LONG)
-    assert app.status.text.startswith("Settled")
+    assert app.restoration.settled
     assert [mark["kind"] for mark in app.panes.original.layer.marks if mark["text"] == "held"] == ["held"]
     assert app.panes.original.layer.mesh_opacity == 0
 
