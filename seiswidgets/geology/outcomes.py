@@ -184,9 +184,9 @@ def shown(column: str, value: float | None) -> str:
     """Text for a value of a column; a dash if there is none."""
     if value is None or np.isnan(value):
         return "–"
-    if column in SHARES:
-        return f"{100 * value:.2f}"
-    return f"{value:.2f}" if column.startswith("correlation") or column == ROTATION else f"{value:.0f}"
+    if column in (PROBLEMS, WARNINGS):
+        return f"{value:.0f}"
+    return f"{round(100 * value if column in SHARES else value, 2) + 0.0:.2f}"  # + 0.0: no "-0.00"
 
 
 def _html_row(tag: str, cells: Sequence[str]) -> str:

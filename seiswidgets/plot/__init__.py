@@ -18,8 +18,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "comparison": ["comparison", "pooled"],
+        "ensembles": ["ensemble"],
         "figures": ["deformation", "workflow"],
         "histories": ["burial", "throws"],
+        "hypotheses": ["difference", "hypotheses"],
         "panels": ["mesh", "restoration", "section"],
         "story": ["storyboard"],
     },

@@ -69,29 +69,29 @@ def storyboard(
     frame = plot_frame(restored.original, [step.section for step in steps], exaggeration, window)
     limit = amplitude_limit(restored.original, clip)
     figure = plt.figure() if figure is None else figure
-    panels = _make_panels(figure, len(steps), across, frame)
+    panels = make_panels(figure, len(steps), across, frame)
     story = list(zip(steps, shown, strict=True))
     for number, (ax, (step, scene)) in enumerate(zip(panels, story[::-1] if oldest_first else story, strict=True), 1):
         draw_section(ax, step, limit, cmap)
         frame.apply_to(ax, "")
         ax.set_title(fill(f"{number}  {scene.label}", LETTERS // across), loc="left", fontsize=FONT, **PLAIN_TEXT)
-        _label(ax, (number - 1) % across == 0, number > len(panels) - across)
+        label_outer(ax, (number - 1) % across == 0, number > len(panels) - across)
         draw_picks(ax, step, picks, frame, colours, fontsize=FONT)
     figure.supxlabel(frame.footnote, x=0.01, **{**FOOTNOTE, "fontsize": FONT})
     return figure
 
 
-def _make_panels(figure: Figure, count: int, columns: int, frame: PlotFrame) -> list[Axes]:
+def make_panels(figure: Figure, count: int, columns: int, frame: PlotFrame, width: float = WIDTH) -> list[Axes]:
     """Axes in rows of equal size; the figure gets the size that they need."""
     rows = -(-count // columns)
-    height = (WIDTH - 0.8) / columns * frame.height_over_width
-    figure.set(size_inches=(WIDTH, rows * (height + 0.3) + 0.75), layout_engine="compressed")
+    height = (width - 0.8) / columns * frame.height_over_width
+    figure.set(size_inches=(width, rows * (height + 0.3) + 0.75), layout_engine="compressed")
     grid = figure.add_gridspec(rows, columns)
     return [figure.add_subplot(grid[divmod(index, columns)]) for index in range(count)]
 
 
-def _label(ax: Axes, at_left: bool, at_bottom: bool) -> None:
+def label_outer(ax: Axes, at_left: bool, at_bottom: bool, fontsize: float = FONT) -> None:
     """Leave labels only where no neighbour has them."""
-    ax.tick_params(labelsize=FONT, labelleft=at_left, labelbottom=at_bottom)
-    ax.set_xlabel(ax.get_xlabel() if at_bottom else "", fontsize=FONT)
-    ax.set_ylabel(ax.get_ylabel() if at_left else "", fontsize=FONT)
+    ax.tick_params(labelsize=fontsize, labelleft=at_left, labelbottom=at_bottom)
+    ax.set_xlabel(ax.get_xlabel() if at_bottom else "", fontsize=fontsize)
+    ax.set_ylabel(ax.get_ylabel() if at_left else "", fontsize=fontsize)
