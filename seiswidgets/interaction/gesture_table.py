@@ -41,6 +41,7 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("Click, in Look", "selects a line, whose vertices can then be dragged"),
         ("Click, in Hold", "holds the block at the pointer; on the pin, releases it"),
         ("Shift+click, in Hold", "pins the point at the pointer; a click on a pin releases it"),
+        ("N, Shift+N", "show the next hypothesis, the one before; anywhere in the app"),
         ("Click on a flag", "shows its finding and selects its pick"),
         ("Right click, long press, menu key", "shows what can be done there"),
     ),

@@ -1,6 +1,6 @@
 """The restoration app: draw on a section, restore it, and inspect the result."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
@@ -13,6 +13,7 @@ from traitlets import Bool, Bunch, Instance, Tuple, dlink, link, validate
 
 from seiswidgets.geology import validation
 from seiswidgets.geology.findings import Finding
+from seiswidgets.geology.hypothesis import Hypothesis
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.restoration import Restoration
@@ -36,6 +37,7 @@ from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.offers import offers
 from seiswidgets.widgets.panels.analysis import Analysis
 from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
+from seiswidgets.widgets.panels.hypotheses import HypothesesPanel
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList
 from seiswidgets.widgets.panels.weight_sliders import WeightSliders
@@ -45,7 +47,7 @@ from seiswidgets.widgets.status_bar import StatusBar
 from seiswidgets.widgets.timeline import Timeline
 from seiswidgets.widgets.workspace import Workspace
 
-WORKING = ("analysis", "files")  # pages that work in the background
+WORKING = ("analysis", "files", "hypotheses_panel")  # pages that work in the background
 PATIENCE = 10.0  # seconds that a closing app waits for its threads to end
 
 
@@ -197,6 +199,20 @@ class RestorationApp(WithParts, VBox):
         dlink((self.panes, "span"), (files.results, "span"))
         return files
 
+    @cached_property
+    def hypotheses_panel(self) -> HypothesesPanel:
+        """Page of the tab Hypotheses, made when it is first opened."""
+        return HypothesesPanel(self.workspace)
+
+    @property
+    def hypotheses(self) -> tuple[Hypothesis, ...]:
+        """All hypotheses, in their order; if others are set, the first of them is shown."""
+        return self.workspace.hypotheses
+
+    @hypotheses.setter
+    def hypotheses(self, hypotheses: Sequence[Hypothesis]) -> None:
+        self.workspace.load_hypotheses(hypotheses)
+
     @property
     def colours(self) -> dict[tuple[str, str], str]:
         """Colour of each pick, by its kind and name, for figures of `plot`."""
@@ -260,6 +276,7 @@ class RestorationApp(WithParts, VBox):
             Display=lambda: DisplayControls(self.panes),
             Report=lambda: self.reports,
             Analysis=lambda: self.analysis,
+            Hypotheses=lambda: self.hypotheses_panel,
             File=lambda: self.files,
         )
 
@@ -269,7 +286,12 @@ class RestorationApp(WithParts, VBox):
         self.picker.toolbar.children += (self.status.buttons, self.maximise_button)
         self.panes.foot.children = (self.picker.click_line, self.panes.readout)
         above = [self.picker.toolbar, self.picker.help, self.status, self.session_bar]
-        return [*above, self.panes, self.divider, below, Names(), KeyGuard(self.picker.hotkeys)]
+        return [*above, self.panes, self.divider, below, Names(), KeyGuard(self._hotkeys)]
+
+    @property
+    def _hotkeys(self) -> dict[str, Callable[[], None]]:
+        step = self.workspace.step_hypothesis
+        return {**self.picker.hotkeys, "n": partial(step, 1), "N": partial(step, -1)}
 
     def _bind(self) -> None:
         workspace, editor = self.workspace, self.picker.editor

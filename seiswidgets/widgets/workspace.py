@@ -3,7 +3,7 @@
 Views and panels read it, observe it, and send it edits; none of them keeps a copy of its state.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypedDict, Unpack
@@ -11,11 +11,12 @@ from typing import Any, TypedDict, Unpack
 from traitlets import Bool, Bunch, HasTraits, Instance, observe, validate
 
 from seiswidgets.errors import SettingError
+from seiswidgets.geology.hypothesis import Hypothesis
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.interaction.alternatives import alternatives, switched
+from seiswidgets.interaction.alternatives import alternatives, switched, with_alternatives
 from seiswidgets.interaction.document import Alternative, Document, EditHistory
 from seiswidgets.interaction.drawing import Drawing
 from seiswidgets.io.session.sources import FILE, SectionSource
@@ -105,6 +106,32 @@ class Workspace(HasTraits):
     def edit(self, label: str, **changes: Any) -> None:
         """Change fields of the document as one edit, named in the tooltip of Undo; no change is no edit."""
         self.history.edit(label, **changes)
+
+    @property
+    def hypotheses(self) -> tuple[Hypothesis, ...]:
+        """All hypotheses of the document, in their order."""
+        return tuple(
+            Hypothesis(self.section, one.drawing.interpretation, one.plan, one.name)
+            for one in alternatives(self.document)
+        )
+
+    def load_hypotheses(self, hypotheses: Sequence[Hypothesis]) -> None:
+        """Replace all hypotheses by others, as one edit, and show the first; picks of the same name keep their looks.
+
+        Raises
+        ------
+        SettingError
+            If there is none, one is of another section, or two have the same name.
+        """
+        names = [one.name for one in hypotheses]
+        if not names or len(set(names)) < len(names):
+            raise SettingError("give at least one hypothesis, each with a name of its own")
+        if any(one.section is not self.section for one in hypotheses):
+            raise SettingError("a hypothesis is of another section; open that section first")
+        loaded = [
+            Alternative(one.name, self.drawing.with_interpretation(one.interpretation), one.plan) for one in hypotheses
+        ]
+        self.edit_hypotheses("load hypotheses", lambda document: with_alternatives(document, loaded, 0))
 
     def edit_hypotheses(self, label: str, change: Callable[[Document], Document]) -> None:
         """Change the hypotheses as one edit, by a function of `alternatives`."""
