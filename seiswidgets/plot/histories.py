@@ -11,6 +11,7 @@ from seiswidgets.signatures import strict_keywords
 
 AGAINST = ("depth", "age")
 LEGEND_SIZE = 9
+MARKERS = "os^Dv"  # lines of equal throw lie on each other
 
 
 @strict_keywords
@@ -41,10 +42,14 @@ def throws(table: Table, ax: Axes | None = None, *, against: str = "depth", colo
     for name in dict.fromkeys(row["fault"] for row in rows):
         own = sorted((row for row in rows if row["fault"] == name), key=lambda row: row[against])
         throw, down = ([row[key] for row in own] for key in ("throw", against))
-        ax.plot(throw, down, "o-", color=(colours or {}).get(("fault", name)), label=name)
+        marker = MARKERS[len(ax.get_lines()) % len(MARKERS)]
+        ax.plot(
+            throw, down, marker=marker, markersize=8, alpha=0.8, color=(colours or {}).get(("fault", name)), label=name
+        )
         for row in own:
             ax.annotate(row["horizon"], (row["throw"], row[against]), (5, 3), textcoords="offset points", fontsize=8)
     ax.axvline(0, color="0.7", zorder=0)
+    ax.margins(x=0.15)
     ax.invert_yaxis()
     ax.set(xlabel=f"Throw ({table.units['throw']})", ylabel=f"{against.capitalize()} ({table.units[against]})")
     if rows:

@@ -106,7 +106,9 @@ def _figure(table: Table, colours: PickColours) -> str:
     svg = file.getvalue()
     names = ", ".join(dict.fromkeys(map(str, table.column("fault"))))
     label = escape(f"Throw against depth at {names}; the table below has the numbers", quote=True)
-    return svg[svg.index("<svg") :].replace("<svg", f'<svg role="img" aria-label="{label}"', 1)
+    return svg[svg.index("<svg") :].replace(
+        "<svg", f'<svg role="img" style="max-width: 100%; height: auto" aria-label="{label}"', 1
+    )
 
 
 PAGES: dict[str, Callable[[Restoration, Interpretation, PickColours], str]] = {
