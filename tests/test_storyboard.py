@@ -3,6 +3,7 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -52,6 +53,25 @@ def test_all_panels_have_one_scale_and_fixed_colours(restored):
     assert len({tuple(line.get_color() for line in ax.lines[-1:]) for ax in panels}) == 1
     assert "#123456" in {line.get_color() for line in panels[2].lines}
     np.testing.assert_array_equal(panels[0].images[0].get_array(), restored.original.amplitude)
+
+
+def test_layers_keep_their_colours_and_are_named_with_their_ages(restored):
+    layers = sw.Stratigraphy([sw.Layer(None, 0.0), sw.Layer("H1", 5.0), sw.Layer("H2", 9.0)])
+    figure = sw.plot.storyboard(restored, stratigraphy=layers)
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["top of the section, 0 Ma", "H1, 5 Ma", "H2, 9 Ma"]
+    for ax in figure.axes:
+        tints = ax.images[1].get_array()
+        top, bottom = tints[5, 20, :3], tints[-15, 20, :3]
+        np.testing.assert_allclose(top, to_rgb(legend.get_patches()[0].get_facecolor()), atol=0.01)
+        np.testing.assert_allclose(bottom, to_rgb(legend.get_patches()[2].get_facecolor()), atol=0.01)
+
+
+def test_names_of_close_horizons_stand_at_different_ends():
+    lines = [sw.Horizon([(0, z), (1400, z)], name=f"H{z}") for z in (100, 110, 120, 500)]
+    ax, *_ = sw.plot.storyboard(sw.Restoration(sw.Section(np.eye(100), 15.0, 10.0)), sw.Interpretation([], lines)).axes
+    names = {text.get_text(): text.get_horizontalalignment() for text in ax.texts}
+    assert names == {"H100": "left", "H110": "right", "H500": "left"}  # there is no room for H120
 
 
 def test_letters_are_large_enough_for_print(restored):

@@ -170,15 +170,33 @@ def draw_picks(
     frame: PlotFrame,
     colours: PickColours | None = None,
     fontsize: float = 8.5,
+    apart: float = 0.0,
 ) -> None:
-    """Draw the original's picks after restoration, each with its name."""
+    """Draw the original's picks after restoration, each with its name.
+
+    A horizon's name stands at its right end if another one is less than ``apart`` (in z) from it at the left, and is
+    left out if there is none there either.
+    """
     picks = draw_pick_lines(ax, restored, interpretation, colours)
+    taken: list[tuple[str, float]] = []
     for pick, lines, colour in picks:
         points = frame.visible(np.concatenate([np.empty((0, 2)), *lines]))
-        if len(points):
-            placement = _below_or_beside(points, frame) if isinstance(pick, Fault) else _above_start(points)
-            look: dict[str, Any] = {"color": colour, "path_effects": HALO, "fontsize": fontsize, "fontweight": "bold"}
-            ax.annotate(pick.name, textcoords="offset points", **placement, **look, **PLAIN_TEXT)
+        if not len(points):
+            continue
+        if isinstance(pick, Fault):
+            placement = _below_or_beside(points, frame)
+        else:
+            free = [one for one in _above_ends(points) if _is_free(one, taken, apart)]
+            if not free:
+                continue
+            placement = free[0]
+            taken.append((placement["ha"], placement["xy"][1]))
+        look: dict[str, Any] = {"color": colour, "path_effects": HALO, "fontsize": fontsize, "fontweight": "bold"}
+        ax.annotate(pick.name, textcoords="offset points", **placement, **look, **PLAIN_TEXT)
+
+
+def _is_free(placement: dict[str, Any], taken: list[tuple[str, float]], apart: float) -> bool:
+    return all(side != placement["ha"] or abs(placement["xy"][1] - z) >= apart for side, z in taken)
 
 
 def draw_pick_lines(
@@ -229,6 +247,10 @@ def _below_or_beside(points: np.ndarray, frame: PlotFrame) -> dict[str, Any]:
     return {"xy": top, "xytext": (-5 if left else 5, -2), "ha": "right" if left else "left", "va": "top"}
 
 
-def _above_start(points: np.ndarray) -> dict[str, Any]:
-    """Placement of a horizon's name: above its first point."""
-    return {"xy": points[np.argmin(points[:, 0])], "xytext": (3, 4), "ha": "left", "va": "bottom"}
+def _above_ends(points: np.ndarray) -> list[dict[str, Any]]:
+    """Placements of a horizon's name: above its first point, and above its last."""
+    first, last = points[np.argmin(points[:, 0])], points[np.argmax(points[:, 0])]
+    return [
+        {"xy": first, "xytext": (3, 4), "ha": "left", "va": "bottom"},
+        {"xy": last, "xytext": (-3, 4), "ha": "right", "va": "bottom"},
+    ]

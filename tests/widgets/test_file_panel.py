@@ -608,12 +608,13 @@ def test_all_results_are_written_and_open_again(restored, tmp_path):
     results.export()
     assert results.wait(LONG)
     assert f"Wrote into {tmp_path / 'out'}: faulted fold-restored.npz, " in results.notice.text
-    assert [path.parent for path in results.written] == [tmp_path / "out"] * 9
+    assert [path.parent for path in results.written] == [tmp_path / "out"] * 10
     written = {path.name.split("-")[-1]: path for path in results.written}
     section = restored.restoration.section
     np.testing.assert_array_equal(sw.open_section(written["restored.npz"]).amplitude, section.amplitude)
     assert sw.preview(written["restored.sgy"]).shape == section.shape
     assert written["figure.png"].read_bytes().startswith(b"\x89PNG")
+    assert written["storyboard.png"].read_bytes().startswith(b"\x89PNG")
     assert "<svg" in written["figure.svg"].read_text()
     assert len(meshio.read(written["mesh.vtu"]).points) == len(restored.restoration.stages[-1].vertices)
     assert len(json.loads(written["report.json"].read_text())["stages"]) == 2

@@ -175,6 +175,14 @@ def _write_figure(result: Result, path: Path) -> None:
         figure.savefig(draft, dpi=DPI)
 
 
+def _write_storyboard(result: Result, path: Path) -> None:
+    from matplotlib.figure import Figure
+
+    figure = plot.storyboard(result.restoration, result.interpretation, colours=result.colours, figure=Figure())
+    with atomic_write(path) as draft:
+        figure.savefig(draft, dpi=DPI)
+
+
 def _write_report(result: Result, path: Path) -> None:
     save_report(result.restoration, path, result.interpretation, colours=result.colours, span=result.span)
 
@@ -209,6 +217,7 @@ WRITERS: dict[str, tuple[str, Writer]] = {
     "restored.sgy": ("section, SEG-Y (.sgy)", _write_segy),
     "figure.png": ("figure (.png, 300 dpi)", _write_figure),
     "figure.svg": ("figure (.svg)", _write_figure),
+    "storyboard.png": ("storyboard (.png, 300 dpi)", _write_storyboard),
     "mesh.vtu": ("mesh for ParaView (.vtu)", _of_restoration(save_mesh)),
     "report.json": ("report (.json)", _write_report),
     "report.html": ("report (.html)", _write_report),
