@@ -16,7 +16,7 @@ from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.scenes import scenes
 from seiswidgets.geology.stratigraphy import Stratigraphy
 from seiswidgets.geology.validation import checked_kind, whole_number
-from seiswidgets.plot.frame import FOOTNOTE, PLAIN_TEXT, Window, plot_frame
+from seiswidgets.plot.frame import FOOTNOTE, PLAIN_TEXT, PlotFrame, Window, plot_frame
 from seiswidgets.plot.panels import amplitude_limit, draw_picks, draw_section, first_stages
 from seiswidgets.signatures import strict_keywords
 
