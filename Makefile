@@ -19,7 +19,7 @@ NODE_MODULES := node_modules/.package-lock.json
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
 
 .DEFAULT_GOAL := help
-.PHONY: help lab dashboard test check format js bench docs package binder binder-check
+.PHONY: help lab dashboard test test-firefox check format js bench docs package binder binder-check
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -34,6 +34,9 @@ dashboard: $(VENV)/.test  ## serve the app without a notebook at http://127.0.0.
 test: $(VENV)/.test $(NODE_MODULES)  ## run the tests (TEST_ARGS="-k picks" passes options on to pytest)
 	$(NPM) run --silent test
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto $(TEST_ARGS)
+
+test-firefox: $(VENV)/.test  ## take a short walk through the app in Firefox, where there is one
+	$(BIN)/pytest tests/widgets/firefox_check.py
 
 check: $(VENV)/.test $(NODE_MODULES)  ## check style, types, import contracts, and that the notebooks contain no output
 	$(BIN)/ruff check
