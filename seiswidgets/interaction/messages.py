@@ -1,6 +1,6 @@
 """Messages from the browser side of a pane, and their conversion to gestures."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from seiswidgets.interaction.gestures import REACH, DoubleClick, Gesture, Key, Move, Press, Release
@@ -111,9 +111,14 @@ def press_at(message: PointerMessage, projection: PaneProjection) -> Press:
     return Press(projection.to_original(projection.view.to_section(pixel)), pixel, projection, reach=reach)
 
 
-def axes_state(view: Viewport, left: float, note: str = "") -> dict[str, Any]:
-    """Convert the axes of a view to what the pointer layer draws, with ``left`` css pixels left of the plot area."""
+def axes_state(view: Viewport, left: float, note: str = "", titles: tuple[str, str] | None = None) -> dict[str, Any]:
+    """Convert the axes of a view to what the pointer layer draws, with ``left`` css pixels left of the plot area.
+
+    ``titles`` replace the names of the section's axes.
+    """
     x, z = view.ticks()
+    if titles:
+        x, z = (replace(axis, title=title) for axis, title in zip((x, z), titles, strict=True))
     is_true = abs(view.exaggeration - 1) < 0.005
     scale = "true proportions" if is_true else f"V.E. {view.exaggeration:.3g}×"
     corner = f"{scale} · {note}" if note else scale

@@ -98,35 +98,42 @@ class Calibration:
         shares = np.linalg.solve(np.column_stack([along_z, -along_x]), at_x - at_z)
         return np.asarray(at_x - shares[0] * along_z)
 
-    def calibrated(self, amplitude: np.ndarray, window: Window) -> tuple[np.ndarray, dict[str, float]]:
-        """Amplitudes of a window of a picture, and their spacing and origin by name."""
+    def grid(self, window: Window) -> tuple[dict[str, float], tuple[int, int]]:
+        """Spacing and origin by name, and the shape (nz, nx), of a window of a picture."""
         left, right, top, bottom = window
         if self.deskew:
-            return self._deskewed(amplitude, window)
+            return self._level_grid(window)
         dx, dz = self.spacing
         (column, _, x), (_, row, z) = self.x[0], self.z[0]
-        part = amplitude[top : bottom + 1, left : right + 1]
         first = left if dx > 0 else right
         axes = {"x0": x + (first - column) * dx, "dx": abs(dx), "z0": z + (top - row) * dz, "dz": dz}
-        return part if dx > 0 else part[:, ::-1], axes
+        return axes, (bottom - top + 1, right - left + 1)
 
-    def _deskewed(self, amplitude: np.ndarray, window: Window) -> tuple[np.ndarray, dict[str, float]]:
-        """Resample a window on level lines and upright traces, as far apart as the pixels along the axes."""
+    def _level_grid(self, window: Window) -> tuple[dict[str, float], tuple[int, int]]:
+        """Level lines and upright traces, as far apart as the pixels along the axes, between the middles of edges."""
         left, right, top, bottom = window
         middle, centre = (left + right) / 2, (top + bottom) / 2
         edges = np.array([(left, centre), (right, centre), (middle, top), (middle, bottom)])
         values = np.linalg.solve(self._units, (edges - self._origin).T)
-        (x_min, x_max), (z_min, z_max) = np.sort(values[0, :2]), np.sort(values[1, 2:])
-        dx, dz = 1 / np.hypot(*self._units)
-        nx, nz = (round((high - low) / step) + 1 for low, high, step in ((x_min, x_max, dx), (z_min, z_max, dz)))
-        x, z = np.meshgrid(x_min + dx * np.arange(nx), z_min + dz * np.arange(nz))
+        (x_min, x_max), (z_min, z_max) = np.sort(values[0, :2]).tolist(), np.sort(values[1, 2:]).tolist()
+        dx, dz = (1 / np.hypot(*self._units)).tolist()
+        shape = round((z_max - z_min) / dz) + 1, round((x_max - x_min) / dx) + 1
+        return {"x0": x_min, "dx": dx, "z0": z_min, "dz": dz}, shape
+
+    def calibrated(self, amplitude: np.ndarray, window: Window) -> tuple[np.ndarray, dict[str, float]]:
+        """Amplitudes of a window of a picture, and their spacing and origin by name."""
+        left, right, top, bottom = window
+        axes, (nz, nx) = self.grid(window)
+        if not self.deskew:
+            part = amplitude[top : bottom + 1, left : right + 1]
+            return part if self.spacing[0] > 0 else part[:, ::-1], axes
+        x, z = np.meshgrid(axes["x0"] + axes["dx"] * np.arange(nx), axes["z0"] + axes["dz"] * np.arange(nz))
         columns, rows = self._origin[:, None] + self._units @ np.stack([x.ravel(), z.ravel()])
         moved = map_coordinates(amplitude, [rows, columns], order=1, cval=np.nan, output=np.float32)
-        axes = {"x0": float(x_min), "dx": float(dx), "z0": float(z_min), "dz": float(dz)}
         return moved.reshape(nz, nx), axes
 
 
-def checked_window(crop: Sequence[int] | None, shape: tuple[int, int]) -> Window:
+def checked_window(crop: Sequence[float] | None, shape: tuple[int, int]) -> Window:
     """The columns and rows of a picture that are kept; all of them if ``crop`` is None.
 
     Raises

@@ -7,6 +7,8 @@ from seiswidgets.io.session.session import Session
 LABELS = {  # by keyword
     "along": "x comes from",
     "byte_order": "byte order",
+    "calibration": "calibration",
+    "crop": "crop",
     "crossline": "crossline",
     "dx": "traces apart",
     "dz": "samples apart",

@@ -1,7 +1,7 @@
 """Fields for the properties of a section that its file does not state."""
 
 import contextlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from html import escape
 from typing import Any
 
@@ -35,7 +35,7 @@ OF_Z = ("dz", "z0", "z_min", "z_max")
 OF_X = ("dx", "x_min", "x_max")
 KEPT = ("z_unit", "velocity", "x_unit")  # when the same file is previewed again
 ASSUMED = "Assumed, since the file does not state it: {}. Correct it if necessary."
-CROPPED = " The picture must show only the section: crop its margins first."
+CROPPED = " If the picture shows more than the section, crop it and calibrate its axes on the picture."
 REASON = '<div style="line-height: 1.4">{}.</div>'
 STYLE = {"description_width": "130px"}
 
@@ -49,6 +49,8 @@ class SectionFields(VBox):
         By keyword; "line" and "number" select a line, "x_min" to "z_max" are its extent.
     note : HTML
         Findings about the file, and the values that are assumed.
+    rescale : callable(axis, factor)
+        Called when the unit of "x" or "z" changes, to convert other numbers; may be set.
     """
 
     children: tuple[Widget, ...]
@@ -57,6 +59,7 @@ class SectionFields(VBox):
         super().__init__()
         self.fields: dict[str, Text | Dropdown] = {}
         self.note = HTML()
+        self.rescale: Callable[[str, float], None] = lambda axis, scale: None
         self._info: SectionInfo | None = None
 
     def show(self, info: SectionInfo) -> None:
@@ -88,13 +91,22 @@ class SectionFields(VBox):
         SettingError
             If a field that needs a number does not contain one.
         """
-        choices = {name: self._value(name) for name, field in self.fields.items() if field.layout.display != "none"}
+        choices = {name: self._value(name) for name in self.fields if self._is_shown(name)}
         line, number = choices.pop("line", ALL), choices.pop("number", None)
         if line != ALL:
             choices[line] = number
         if "x_min" in choices:
             choices["extent"] = _extent({name: choices.pop(name) for name in EXTENT})
         return {name: value for name, value in choices.items() if value is not None}
+
+    def offer_extent(self, offered: bool) -> None:
+        """Show the fields of the extent, or hide them where it follows from a calibration."""
+        for name in self.fields.keys() & set(EXTENT):
+            self.fields[name].layout.display = "" if offered else "none"
+        self._update_units()
+
+    def _is_shown(self, name: str) -> bool:
+        return self.fields[name].layout.display != "none"
 
     def _value(self, name: str) -> Any:
         value = self.fields[name].value
@@ -149,6 +161,7 @@ class SectionFields(VBox):
         for name in self.fields.keys() & {*(OF_X if is_x else OF_Z)}:
             with contextlib.suppress(ValueError):  # empty, or not a number yet
                 self.fields[name].value = f"{float(self.fields[name].value) * scale:.12g}"
+        self.rescale("x" if is_x else "z", scale)
         self._update_units()
 
     def _add_extent(self, info: SectionInfo) -> None:
@@ -191,7 +204,7 @@ class SectionFields(VBox):
             assumed += ["vertical axis", *["velocity"] * (self.fields["z_unit"].value in SECONDS)]
             assumed += [] if info.x_unit else ["unit of x"]
         assumed += [LABELS[name] for name in ("offset", "sample_format", "dx", "dz", "z0") if name in info.needed]
-        assumed += [label for name, label in EXTENT.items() if name in self.fields]
+        assumed += [label for name, label in EXTENT.items() if name in self.fields and self._is_shown(name)]
         cropped = CROPPED if info.kind == "picture" else ""
         return findings + (HINT.format(ASSUMED.format(", ".join(assumed)) + cropped) if assumed else "")
 

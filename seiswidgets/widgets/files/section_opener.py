@@ -18,6 +18,7 @@ from seiswidgets.io.session.sources import FILE, SectionSource
 from seiswidgets.widgets.files.background_job import BackgroundJob, Report
 from seiswidgets.widgets.files.file_field import FileField
 from seiswidgets.widgets.files.header_bytes import HeaderBytes
+from seiswidgets.widgets.files.picture_calibrator import PictureCalibrator
 from seiswidgets.widgets.files.question import Question
 from seiswidgets.widgets.files.section_fields import SectionFields
 from seiswidgets.widgets.files.thumbnail import thumbnail
@@ -46,6 +47,8 @@ class SectionOpener(VBox):
     header_bytes : HeaderBytes
         Shown for SEG-Y.
     fields : SectionFields
+    calibrator : PictureCalibrator
+        Shown for pictures.
     open_button : Button
     job : BackgroundJob
         The preview or the opening in progress.
@@ -57,6 +60,8 @@ class SectionOpener(VBox):
         self._workspace, self._is_previewed = workspace, False
         self.file = FileField("section: path of a SEG-Y, picture, NumPy or text file", KINDS)
         self.header_bytes, self.fields, self.notice = HeaderBytes(), SectionFields(), Question()
+        self.calibrator = PictureCalibrator(self._show_picture, lambda on: self.fields.offer_extent(not on))
+        self.fields.rescale = self.calibrator.rescale
         self.job = BackgroundJob(self.notice, lambda: "Opening was cancelled; the section is as it was.")
         self.summary, self.thumbnail, self._page = HTML(), HTML(), VBox()
         self.open_button = Button(
@@ -84,7 +89,7 @@ class SectionOpener(VBox):
         self.file.end()
 
     def _choices(self) -> dict[str, Any]:
-        return self.fields.choices() | self._corrections()
+        return self.fields.choices() | self._corrections() | self.calibrator.choices()
 
     def _corrections(self) -> dict[str, Any]:
         """Keywords that correct the file's headers; none if they are not shown."""
@@ -93,6 +98,7 @@ class SectionOpener(VBox):
     def _take_path(self, change: Bunch) -> None:
         self._page.children = ()
         self.header_bytes.reset()
+        self.calibrator.reset()
         self._preview()
 
     def _preview(self) -> None:
@@ -127,10 +133,20 @@ class SectionOpener(VBox):
             self.summary,
             self.thumbnail,
             *[self.header_bytes] * (info.kind == "SEG-Y"),
+            *[self.calibrator] * (info.kind == "picture"),
             self.fields,
         ]
         self._is_previewed = True
         self._update_button()
+
+    def _show_picture(self) -> None:
+        """Read the picture in the background, and show it to be calibrated."""
+        self.notice.hint("")
+        self.notice.attempt(lambda: self.job.begin(partial(self._read_picture, self.file.path)))
+
+    def _read_picture(self, path: str, report: Report) -> Callable[[], None]:
+        pixels = open_section(path, dx=1, dz=1, x0=0, z0=0, z_unit="m", progress=report)
+        return partial(self.calibrator.show, pixels)
 
     def _update_button(self) -> None:
         self.open_button.disabled = self.job.busy or not self._is_previewed

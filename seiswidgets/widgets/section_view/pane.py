@@ -67,6 +67,8 @@ class SectionPane(WithParts, VBox):
         A map in colours over the section.
     overlay_opacity, mesh_opacity : float
         0 to 1.
+    titles : pair of str, optional
+        Titles of the axes; those of the section if left out.
     height : int or None
         Height of the pane with its axes, in css pixels; None for that of the box around it. It is as wide as the page.
     picture : LivePicture, optional
@@ -118,6 +120,7 @@ class SectionPane(WithParts, VBox):
     height = Int(480, allow_none=True)
     message = Unicode()
     note = Unicode()
+    titles = AnyTrait()
 
     def __init__(
         self,
@@ -247,11 +250,12 @@ class SectionPane(WithParts, VBox):
     def _take_frame(self, change: Bunch) -> None:
         self.view = self.view.with_frame(self.frame)
 
-    @observe("view", "note")
+    @observe("view", "note", "titles")
     def _take_view(self, change: Bunch) -> None:
         with hold_canvases(), self.layer.hold_sync():
             self.exaggeration = self.view.exaggeration
-            self.layer.axes, self.layer.window = axes_state(self.view, LEFT, self.note), list(self.view.window)
+            self.layer.axes = axes_state(self.view, LEFT, self.note, self.titles)
+            self.layer.window = list(self.view.window)
             self.layer.size = self.view.size.tolist()
             self._painter.draw(self.view)
         if self._pointer is not None:  # which is at another point now
