@@ -12,6 +12,7 @@ from traitlets import Bool, Bunch, Float, Instance, List, observe, validate
 from seiswidgets.core.deformation import USUAL_SPAN
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.stage import STRIP
 from seiswidgets.interaction.colour import FADED, RatioColouring, checked_span, clip_limit
 from seiswidgets.interaction.drawing import Point
 from seiswidgets.interaction.projection import PaneProjection
@@ -165,11 +166,12 @@ class LinkedPanes(WithParts, VBox):
         return PaneProjection(self.restored.view, self.shown.restoration)
 
     def line_projection(self) -> PaneProjection:
-        """Return the map from the present-day section to the restored pane at the end of time.
+        """Return the map from the present-day section to the restored pane, at the last stage with the rock of now.
 
         From there the browser carries lines to any other moment.
         """
-        return PaneProjection(self.restored.view, (self._snapshot or self.shown).restoration)
+        restoration, stage = (self._snapshot or self.shown).restoration, self.restored.layer.stage
+        return PaneProjection(self.restored.view, restoration if stage is None else restoration.at(stage))
 
     def still(self) -> str:
         """Draw both panes fitted, as a PNG in base 64."""
@@ -195,7 +197,7 @@ class LinkedPanes(WithParts, VBox):
             True if fitted views are to hold all of the rock; after an edit, the view must not jump.
         """
         with UI_LOCK, self.picture.one_frame():
-            self._snapshot, self._moment = snapshot, None
+            self._snapshot, self._moment, self.restored.layer.stage = snapshot, None, None
             restoration = snapshot.restoration
             self._show_section(restoration.original)
             self.picture.frame = None
@@ -206,14 +208,17 @@ class LinkedPanes(WithParts, VBox):
             self._show_badge(snapshot.verdict)
             self._read_again()
 
-    def show_moment(self, moment: Snapshot | None) -> None:
+    def show_moment(self, moment: Snapshot | None) -> bool:
         """Take gestures, and read values, at a moment of the restoration, which the browser shows by itself.
 
-        None is the end.
+        None is the end. Return True if lines are to be drawn anew, since there is other rock than at the moment before.
         """
         with UI_LOCK:
             self._moment = moment
             self._read_again()
+            layer, before = self.restored.layer, self.restored.layer.stage
+            layer.stage = None if self._snapshot is None or moment is None else _next_strip(self._snapshot, moment)
+            return bool(layer.stage != before)
 
     def _show_section(self, section: Section) -> None:
         """Show another present-day section, unless it is the same."""
@@ -317,6 +322,12 @@ class LinkedPanes(WithParts, VBox):
             (ratio,) = restoration.area_ratio_at(before)
         amplitude = _amplitude(restoration.original, before)
         return Reading(tuple(before[0].tolist()), tuple(after[0].tolist()), amplitude, float(ratio))
+
+
+def _next_strip(snapshot: Snapshot, moment: Snapshot) -> int | None:
+    """Number of stages before the next one that removes rock; None if there is none."""
+    stages, done = snapshot.restoration.stages, len(moment.restoration.stages)
+    return next((index for index in range(done, len(stages)) if stages[index].kind == STRIP), None)
 
 
 def _reaches_beyond(window: Window, other: Window) -> bool:

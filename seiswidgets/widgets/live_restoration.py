@@ -116,7 +116,9 @@ class LiveRestoration:
         restoration = self._workspace.restoration
         if change.new <= len(restoration.stages):
             is_end = change.new == len(restoration.stages)
-            self._panes.show_moment(None if is_end else Snapshot(restoration.at(change.new)))
+            with self._panes.restored.layer.hold_sync():
+                if self._panes.show_moment(None if is_end else Snapshot(restoration.at(change.new))):
+                    self._picker.redraw()
             self._histogram.show(self._panes.shown.ratio if restoration.stages else [])
 
     def _take_restoration(self, change: Bunch) -> None:

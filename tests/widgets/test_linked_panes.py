@@ -223,3 +223,21 @@ def test_the_right_side_of_a_still_says_whether_it_is_restored(monkeypatch):
     panes.restoration = sw.Restoration(case.section, spacing=400).flatten(sw.Horizon([(100, 500), (3900, 500)]))
     panes.still()
     assert titles == [["Present day", "Not restored yet"], ["Present day", "Restored"]]
+
+
+def test_lines_of_rock_that_is_stripped_later_are_shown_until_then():
+    case = sw.synthetic.half_graben(dx=25, dz=10)
+    top, faults = case.interpretation.horizon("H2"), case.interpretation.faults
+    start = sw.Restoration(case.section, 150.0).flatten(case.interpretation.horizon("H4"))
+    restored = start.strip(top, faults=faults).flatten(top)
+    panes = sw.LinkedPanes(restored)
+    above = case.interpretation.horizon("H1").pieces[0]
+    assert np.isnan(panes.line_projection().to_pane(above)).all()
+    for time, stage in ((0, 1), (0.5, 1), (1, 1), (1.5, None), (2, None)):
+        panes.show_moment(Snapshot(restored.at(time)))
+        assert panes.restored.layer.stage == stage
+        assert np.isfinite(panes.line_projection().to_pane(above)).all() == (stage == 1)
+    assert panes.show_moment(Snapshot(restored.at(0)))
+    assert not panes.show_moment(Snapshot(restored.at(0.3)))
+    assert panes.show_moment(None)
+    panes.close()

@@ -6,7 +6,7 @@ from typing import Any
 
 import anywidget
 from ipywidgets import CallbackDispatcher, widget_serialization
-from traitlets import Bool, Dict, Float, Instance, List, Unicode
+from traitlets import Bool, Dict, Float, Instance, Int, List, Unicode
 
 from seiswidgets.interaction.messages import PointerMessage
 from seiswidgets.interaction.overlay import without_usual
@@ -54,6 +54,8 @@ class PointerLayer(anywidget.AnyWidget):
         Picture that the layer draws below everything else; then it carries points by the picture's meshes.
     restored : bool
         True to draw the restored section; strokes, marks and the rubber band are then where they are at the end.
+    stage : int or None
+        Number of stages after which these are given instead, since a later one removes rock.
     """
 
     _esm = asset("pointer_layer.js")
@@ -74,6 +76,7 @@ class PointerLayer(anywidget.AnyWidget):
     label = Unicode("seismic section").tag(sync=True)
     picture = Instance(LivePicture, allow_none=True).tag(sync=True, **widget_serialization)
     restored = Bool(False).tag(sync=True)
+    stage = Int(None, allow_none=True).tag(sync=True)
 
     def __init__(self, **traits: Any):
         super().__init__(**traits)

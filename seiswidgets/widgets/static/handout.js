@@ -564,6 +564,12 @@ var LiveChain = class {
    */
   placed(point, time, end = this.stages.length) {
     const stages = this.stagesAt(time);
+    const later = stages.slice(end);
+    if (later.length)
+      return carry(
+        later.map(({ toRestored }) => toRestored),
+        point
+      );
     let at = (
       /** @type {Point | null} */
       point
@@ -2120,6 +2126,7 @@ var PARTS_BY_TRAIT2 = {
   // lines are thin near cut-offs
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
+  stage: ["strokes", "marks"],
   rubber: ["cursors"],
   linked: ["cursors"]
 };

@@ -279,6 +279,13 @@ function twiceAreas(vertices, triangles) {
   }
   return areas;
 }
+function carry(maps, point) {
+  return maps.reduce(
+    (carried, map) => carried && map.forward(carried),
+    /** @type {Point | null} */
+    point
+  );
+}
 
 // picture/motion.js
 var Motion = class {
@@ -493,6 +500,12 @@ var LiveChain = class {
    */
   placed(point, time, end = this.stages.length) {
     const stages = this.stagesAt(time);
+    const later = stages.slice(end);
+    if (later.length)
+      return carry(
+        later.map(({ toRestored }) => toRestored),
+        point
+      );
     let at = (
       /** @type {Point | null} */
       point

@@ -1681,6 +1681,7 @@ var PARTS_BY_TRAIT2 = {
   // lines are thin near cut-offs
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
+  stage: ["strokes", "marks"],
   rubber: ["cursors"],
   linked: ["cursors"]
 };

@@ -1,6 +1,6 @@
 // The chain of meshes that both panes share, as the kernel sends it, at any time between its stages.
 
-import { PiecewiseAffineMap } from "../maps/piecewise_affine_map.js";
+import { carry, PiecewiseAffineMap } from "../maps/piecewise_affine_map.js";
 import { Topology } from "../maps/topology.js";
 import { TriangleFinder } from "../maps/triangle_finder.js";
 import { toNumbers } from "../shared/bytes.js";
@@ -138,6 +138,12 @@ export class LiveChain {
    */
   placed(point, time, end = this.stages.length) {
     const stages = this.stagesAt(time);
+    const later = stages.slice(end);
+    if (later.length)
+      return carry(
+        later.map(({ toRestored }) => toRestored),
+        point,
+      );
     let at = /** @type {Point | null} */ (point);
     for (let index = end - 1; index >= 0 && at; index--) {
       const { toOriginal } = this.stages[index];

@@ -55,7 +55,7 @@ export type Traits = {
   label: string;
   picture: string | null;
   restored: boolean;
-  stage?: number; // number of stages after which lines are given, if not at the end; in handouts
+  stage: number | null;
 };
 
 export type Model = AnyModel<Traits>;

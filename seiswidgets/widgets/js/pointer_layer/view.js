@@ -34,6 +34,7 @@ export const PARTS_BY_TRAIT = {
   marks: ["strokes", "marks"], // lines are thin near cut-offs
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
+  stage: ["strokes", "marks"],
   rubber: ["cursors"],
   linked: ["cursors"],
 };
