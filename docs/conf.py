@@ -24,7 +24,9 @@ myst_heading_anchors = 3
 nb_execution_mode = "cache"  # a notebook runs again only when its code has changed
 nb_execution_cache_path = str(Path(__file__).parent / "_build" / "cache")
 nb_execution_excludepatterns = ["lab.ipynb"]  # which saves a student's work
-nb_execution_excludepatterns += [] if "SEISWIDGETS_DATA_DIR" in os.environ else ["06_real_sections.ipynb"]
+nb_execution_excludepatterns += (
+    [] if "SEISWIDGETS_DATA_DIR" in os.environ else ["06_real_sections.ipynb", "09_through_time.ipynb"]
+)
 nb_execution_timeout = 120
 # Without a kernel, pages show the app as an image and an exercise as its question, so that they need no widgets.
 nb_mime_priority_overrides = [("html", "image/png", 0), ("html", "text/html", 1)]

@@ -154,4 +154,55 @@ ANSWERS = {
         ),
         ("52", {"60": "of that depth", "66.8": "other way round", "44": "tangent"}),
     ],
+    "08_which_match": [
+        ("231", {"200": "throws", "115": "heaves", "173": "not shorter"}),
+        (
+            "none of them",
+            {
+                "the correlation": "Other noise",
+                "the change of bed length": "nearly zero",
+                "the deformation": "as a whole",
+            },
+        ),
+        (
+            "that both horizons must fit one slip",
+            {
+                "the weights of the scan": "fits both",
+                "that the ash is older or younger than H2": "no more",
+                "the finer mesh": "the same",
+            },
+        ),
+        (
+            "lambda values: np.diff(np.percentile(values, [5, 95]))[0]",
+            {
+                "lambda values: np.ptp(values)": "whole range",
+                "lambda values: np.std(values)": "none of 3",
+                "lambda values: np.percentile(values, 90) - np.percentile(values, 10)": "80%",
+            },
+        ),
+    ],
+    "09_through_time": [
+        (
+            "1.64",
+            {"0.61": "other way round", "1": "did not move", "64 %": "by which it is thicker", "2 km": "a length"},
+        ),
+        (
+            "before H2 was deposited, and back to the time of H5 at least",
+            {
+                "after H1 was deposited": "be cut",
+                "only at the time of H5": "no throw",
+                "all at once, after H2 was deposited": "the same throw",
+            },
+        ),
+        ("329", {"0": "with itself", "-329": "other way round", "50": "too small"}),
+        ("0.129", {"87 %": "missing", "14.8": "true one", "0": "Compare"}),
+        (
+            "the beds are older than the fault",
+            {
+                "the fault is steep": "may be steep",
+                "the section is in time": "ratio",
+                "the throw is small": "Small faults",
+            },
+        ),
+    ],
 }

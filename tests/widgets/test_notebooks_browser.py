@@ -13,7 +13,7 @@ from tests.widgets.byhand import draw_faulted_fold, is_of_today, is_painted, is_
 from tests.widgets.test_pane_browser import shoot
 
 FIRST, *OTHERS = NOTEBOOKS
-IN_DATA = {"06_real_sections"}  # cannot go without the real sections
+IN_DATA = {"06_real_sections", "09_through_time"}  # cannot go without the real sections
 MOST_SECONDS, MOST_MEGABYTES = 60, 1000  # of the processor, and of memory
 OUTPUTS = """() => window.jupyterapp.shell.currentWidget.content.widgets
   .flatMap((cell) => cell.model.outputs?.toJSON() ?? [])"""
