@@ -5,7 +5,7 @@ import contextlib
 import pytest
 from playwright.sync_api import expect
 
-from tests.widgets.appscreen import EMPTY, SHOWN
+from tests.widgets.appscreen import EMPTY, FEW, PICKS, SHOWN
 from tests.widgets.byhand import is_painted
 
 FAULT = [(0.46, 0.01), (0.53, 0.35), (0.62, 0.7), (0.74, 0.99)]  # shares of the plot area
@@ -58,3 +58,22 @@ def test_a_fault_is_drawn_by_taps(open_app):
         screen.page.touchscreen.tap(*at)
     is_drawn(screen.page)
     screen.becomes("len(app.interpretation.faults[0].points)", 4)
+
+
+def test_a_long_press_opens_the_menu_and_puts_no_vertex(open_app):
+    screen = open_app(FEW, touch=True)
+    page, before = screen.page, screen.ask(PICKS)
+    page.locator("button[data-value=Fault]").tap()
+    screen.until("app.picker.mode == 'fault'")
+    touch = page.context.new_cdp_session(page)
+    x, y = screen.pixels([(3400, 1800)])[0]
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": float(x), "y": float(y)}]})
+    item = page.get_by_role("menuitem", name="All gestures and keys")
+    item.wait_for()
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    screen.until("not app.picker.dragging and editor.drawing.draft is None")
+    assert screen.ask(PICKS) == before
+    expect(page.get_by_role("menu")).to_have_count(1)  # opened once, and still open
+    assert item.bounding_box()["height"] >= 24
+    item.tap()
+    page.locator(".seiswidgets-help").wait_for()

@@ -1,8 +1,10 @@
 """The app in its main states, in both themes and on narrow and wide windows: a screenshot of each, to be looked at."""
 
+from tests.widgets.appscreen import SHOWN, AppScreen
 from tests.widgets.test_histogram_browser import bar
+from tests.widgets.test_layout_browser import FILLING
 
-WIDTHS, HEIGHT = (1200, 1900), 1150
+SIZES = {1000: 800, 1366: 768, 1900: 1000}
 OUT = """() => [...document.querySelectorAll(".jp-OutputArea-output button, .jp-OutputArea-output .seiswidgets-layer")]
   .filter((one) => one.offsetParent !== null && one.getBoundingClientRect().right > window.innerWidth)
   .map((one) => one.textContent)"""
@@ -12,8 +14,8 @@ def look(screen, state):
     """Every look of a state: nothing is cut off by the window, and every pane is painted for the room it has."""
     for dark in (False, True):
         screen.opened.darken(dark)
-        for width in WIDTHS:
-            screen.page.set_viewport_size({"width": width, "height": HEIGHT})
+        for width, height in SIZES.items():
+            screen.page.set_viewport_size({"width": width, "height": height})
             one, other = screen.pictures(lambda pictures: all(is_filled(screen, pictures)))
             assert one[:2] == other[:2]
             assert screen.page.evaluate(OUT) == []
@@ -28,8 +30,8 @@ def is_filled(screen, pictures):
         yield abs(width - box["width"]) <= 1 and abs(height - box["height"]) <= 1
 
 
-def test_every_state_in_every_look(open_app):
-    screen = open_app()
+def test_every_state_in_every_look(notebook):
+    screen = AppScreen(notebook(FILLING + SHOWN, width=1366, height=768))
     look(screen, "empty")
     screen.button("Fault").click()
     screen.click(*screen.points("drawn.faults[0].points[:24:6]"))
@@ -55,7 +57,7 @@ def test_every_state_in_every_look(open_app):
     screen.until("app.panes.brush")
     look(screen, "brushed")
     screen.ask("app.histogram.set_trait('brush', [])")
-    screen.ask("app.timeline.set_trait('time', 0.6)")
+    screen.ask("app.timeline.set_trait('time', 1.4)")
     look(screen, "timeline")
     for name in ("Weights", "Steps", "Solver", "Display", "Report"):
         screen.tab(name)

@@ -70,7 +70,7 @@ def test_lines_labels_and_marks_lie_where_they_belong(bare_layer):
     assert (width, colour, dash) == ("3", "#00ff00", "5 2")
     np.testing.assert_allclose(pixels(layer.attributes(".dots", "d")[0][0]), expected, atol=0.01)
     assert layer.attributes(".stroke .halo", "stroke-width")[0] == ["6"]
-    assert pixels(layer.attributes(".thin", "d")[0][0]).tolist() == [[280, 200], [320, 200]]  # 20 css pixels about "12"
+    assert pixels(layer.attributes(".thin", "d")[0][0]).tolist() == [[286, 200], [314, 200]]  # 14 css pixels about "12"
     assert layer.attributes(".chosen", "cx", "cy") == [["120", "160"]]
     names = layer.page.locator(".seiswidgets-layer .name")
     assert names.all_text_contents() == [IMG, "at the corner", "through"]

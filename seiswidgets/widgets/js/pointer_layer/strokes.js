@@ -5,7 +5,7 @@ import { toNumbers } from "../shared/bytes.js";
 import { append, appendText, pathData, togglePale } from "../shared/svg.js";
 import { splitNear } from "./near.js";
 
-const NEAR = 20; // css pixels around a cut-off
+const NEAR = 14; // css pixels around a cut-off
 const DOT = { radius: 2, halo: 1, distance: 10 }; // css pixels; the last between two dots of a line
 const HALO = 1.5; // css pixels of the halo on either side of a line
 const LABEL_MARGIN = 4; // css pixels between a label and the border
