@@ -34,7 +34,7 @@ READOUT = (
     'overflow: hidden; text-overflow: ellipsis">{}</div>'
 )
 HEADING = '<div style="font-weight: 600; padding-left: 64px; line-height: 20px">{}</div>'
-BEYOND = "rock beyond the window: 0 shows all"
+BEYOND = "0 shows all of the rock"
 BRUSHED_ALONE = 0.6  # opacity of what is brushed while the map itself is not shown
 SHARED = ("colours", "clip", "gain", "polarity", "height")
 

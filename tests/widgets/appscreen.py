@@ -28,7 +28,7 @@ PIXELS = """(canvases) => canvases.map((canvas) => {
   const data = canvas.getContext("2d").getImageData(0, 0, width, height).data;
   let sum = 0;
   for (let i = 0; i < data.length; i++) sum = (sum * 31 + data[i]) >>> 0;
-  return [width, height, data[4 * Math.floor((0.5 + height / 2) * width) + 3], sum];
+  return [width, height, data[4 * (Math.floor(height / 2) * width + Math.floor(width / 2)) + 3], sum];
 })"""
 
 

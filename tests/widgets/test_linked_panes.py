@@ -131,6 +131,12 @@ def test_the_view_follows_the_rock_only_when_it_is_told_to(panes, restored):
     panes.show(Snapshot.of(restored), follow=False)  # after an edit
     assert panes.original.view.window == panes.restored.view.window == whole
     assert "0 shows all" in panes.restored.layer.axes["note"]
+    tell(panes.original, "size", width=800, height=400, ratio=2)
+    assert panes.original.view.window == whole
+    tell(panes.original, "size", width=500, height=400, ratio=2)  # the picture changes in any case
+    assert panes.original.view.window == panes.restored.view.window == panes.original.frame != whole
+    panes.show(Snapshot.of(today))
+    panes.show(Snapshot.of(restored), follow=False)
     panes.restored.fit()
     assert panes.original.view.window == panes.original.frame != whole
     assert "0 shows all" not in panes.restored.layer.axes["note"]

@@ -139,6 +139,7 @@ class SectionPane(WithParts, VBox):
         self._flag_listeners: list[Callable[[int], None]] = []
         self._make_menu: MenuMaker = lambda event: []
         self._menu: list[MenuItem] = []  # that is open
+        self._fitted_window: Window | None = None  # of the view when its frame was last replaced
         self._pointer: Point | None = None  # in css pixels of the plot area; None while it is elsewhere
         self.projection = self.line_projection = lambda: PaneProjection(self.view)
         self._painter = Painter(section, _plot_area())
@@ -226,8 +227,10 @@ class SectionPane(WithParts, VBox):
         self.view = self.view.fitted()
 
     def reframe(self, frame: Window, *, follow: bool) -> None:
-        """Replace the frame; a fitted view follows it, or keeps its window like any other."""
+        """Replace the frame; a fitted view follows it, or keeps its window until the pane is resized."""
         view = self.view.with_frame(frame)
+        if self.view.is_fitted:
+            self._fitted_window = self.view.window
         self.view = view if follow else replace(view, window=self.view.window)
         self.frame = frame
 
@@ -335,7 +338,9 @@ class SectionPane(WithParts, VBox):
     def _resize(self, message: PointerMessage) -> None:
         """Adopt the size of the plot area in the browser; send everything to a page that has just appeared."""
         with hold_canvases():
-            self.view = self.view.resized(message.width, message.height, message.ratio)
+            is_resized = (message.width, message.height) != (self.view.width, self.view.height)
+            view = self.view.fitted() if is_resized and self.view.window == self._fitted_window else self.view
+            self.view = view.resized(message.width, message.height, message.ratio)
             if message.fresh and self.layer.picture is None:
                 self._painter.resend(self.view)
             self._painter.sharpen(self.view)

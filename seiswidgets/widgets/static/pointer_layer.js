@@ -292,13 +292,15 @@ function openMenu(el, labels, position, choose) {
   el.querySelector(":scope > .menu")?.remove();
   const menu = document.createElement("div");
   let isClosed = false;
+  let isPressed = false;
   menu.className = "menu";
   menu.setAttribute("role", "menu");
   const items = labels.map((label, index) => {
     const item = document.createElement("button");
     item.setAttribute("role", "menuitem");
     item.textContent = label;
-    item.addEventListener("click", () => {
+    item.addEventListener("click", ({ detail }) => {
+      if (detail && !isPressed) return;
       close();
       choose(index);
     });
@@ -311,6 +313,9 @@ function openMenu(el, labels, position, choose) {
     menu.remove();
     if (isKept) el.querySelector(".plot")?.focus({ preventScroll: true });
   }
+  menu.addEventListener("pointerdown", () => {
+    isPressed = true;
+  });
   menu.addEventListener("keydown", (event) => {
     const index = items.indexOf(
       /** @type {HTMLButtonElement} */
@@ -1558,7 +1563,7 @@ function crossings(from, to, centre, radius) {
 }
 
 // pointer_layer/strokes.js
-var NEAR = 20;
+var NEAR = 14;
 var DOT = { radius: 2, halo: 1, distance: 10 };
 var HALO = 1.5;
 var LABEL_MARGIN = 4;

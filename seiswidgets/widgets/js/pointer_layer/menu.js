@@ -12,13 +12,15 @@ export function openMenu(el, labels, position, choose) {
   el.querySelector(":scope > .menu")?.remove();
   const menu = document.createElement("div");
   let isClosed = false;
+  let isPressed = false; // a finger that has opened the menu by a long press is lifted over it
   menu.className = "menu";
   menu.setAttribute("role", "menu");
   const items = labels.map((label, index) => {
     const item = document.createElement("button");
     item.setAttribute("role", "menuitem");
     item.textContent = label;
-    item.addEventListener("click", () => {
+    item.addEventListener("click", ({ detail }) => {
+      if (detail && !isPressed) return; // 0 is the keyboard
       close();
       choose(index);
     });
@@ -32,6 +34,9 @@ export function openMenu(el, labels, position, choose) {
     menu.remove();
     if (isKept) /** @type {SVGElement | null} */ (el.querySelector(".plot"))?.focus({ preventScroll: true });
   }
+  menu.addEventListener("pointerdown", () => {
+    isPressed = true;
+  });
   menu.addEventListener("keydown", (event) => {
     const index = items.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
