@@ -1,10 +1,13 @@
 """Lines, marks and a map in colours, drawn over a section's picture."""
 
+from base64 import b64encode
 from dataclasses import dataclass
+from io import BytesIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from PIL import Image
 
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.point_location import TOLERANCE
@@ -146,6 +149,13 @@ class Overlay:
             array.setflags(write=False)
             object.__setattr__(self, name, array)
         object.__setattr__(self, "window", checked_window("an overlay's window", self.window))
+
+    def state(self, opacity: float) -> State:
+        """Convert to what the pointer layer draws."""
+        buffer = BytesIO()
+        Image.fromarray(self.palette[self.levels]).save(buffer, "png")
+        href = f"data:image/png;base64,{b64encode(buffer.getvalue()).decode()}"
+        return {"href": href, "window": list(self.window), "opacity": opacity}
 
 
 def mesh_state(vertices: np.ndarray, triangles: np.ndarray) -> State:

@@ -40,6 +40,7 @@ from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.panels.hypotheses import HypothesesPanel
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList
+from seiswidgets.widgets.panels.uncertainty import UncertaintyPanel
 from seiswidgets.widgets.panels.weight_sliders import WeightSliders
 from seiswidgets.widgets.picker import Picker
 from seiswidgets.widgets.stage_strip import StageStrip
@@ -47,7 +48,7 @@ from seiswidgets.widgets.status_bar import StatusBar
 from seiswidgets.widgets.timeline import Timeline
 from seiswidgets.widgets.workspace import Workspace
 
-WORKING = ("analysis", "files", "hypotheses_panel")  # pages that work in the background
+WORKING = ("analysis", "files", "hypotheses_panel", "uncertainty_panel")  # pages that work in the background
 PATIENCE = 10.0  # seconds that a closing app waits for its threads to end
 
 
@@ -204,6 +205,13 @@ class RestorationApp(WithParts, VBox):
         """Page of the tab Hypotheses, made when it is first opened."""
         return HypothesesPanel(self.workspace)
 
+    @cached_property
+    def uncertainty_panel(self) -> UncertaintyPanel:
+        """Page of the tab Uncertainty, made when it is first opened."""
+        panel = UncertaintyPanel(self.workspace, self.panes)
+        panel.observe(lambda change: self.reports.show_errors(change.new), "ensemble")
+        return panel
+
     @property
     def hypotheses(self) -> tuple[Hypothesis, ...]:
         """All hypotheses, in their order; if others are set, the first of them is shown."""
@@ -277,6 +285,7 @@ class RestorationApp(WithParts, VBox):
             Report=lambda: self.reports,
             Analysis=lambda: self.analysis,
             Hypotheses=lambda: self.hypotheses_panel,
+            Uncertainty=lambda: self.uncertainty_panel,
             File=lambda: self.files,
         )
 

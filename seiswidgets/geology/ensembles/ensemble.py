@@ -14,6 +14,8 @@ from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.measures import SHARES, Label, unit_of
 
 PERCENTS = (5.0, 50.0, 95.0)
+BAR, NARROW = 120, 0.05  # css pixels of an error bar's axis; share of that which a bar takes at least
+LISTED = 5  # reasons why members have no restoration
 METHOD = "first-order shares of variance by linear regression on the numbers that drew each member"
 
 
@@ -157,14 +159,34 @@ class Ensemble:
         return "\n".join([self.summary, *lines, *(finding.text for finding in self.findings)])
 
     def _repr_html_(self) -> str:
-        heads = ("result", "unit", *(f"P{percent:g}" for percent in PERCENTS), "explained most by")
-        table = [_html_row("th", heads), *(_html_row("td", row) for row in self.rows())]
-        notes = "".join(f"<li>{escape(finding.text)}</li>" for finding in self.findings)
-        return f"<p>{escape(self.summary)}</p><table>{''.join(table)}</table>" + (f"<ul>{notes}</ul>" if notes else "")
+        heads = ("result", "unit", *(f"P{percent:g}" for percent in PERCENTS), "", "explained most by")
+        percentiles = self.percentiles()
+        rows = [
+            "".join(
+                f'<td style="text-align: left">{cell}</td>' for cell in (*map(escape, row[:-1]), bar, escape(row[-1]))
+            )
+            for row, bar in zip(self.rows(), (error_bar(percentiles[label]) for label in self.labels), strict=True)
+        ]
+        head = "".join(f'<th style="text-align: left">{text}</th>' for text in heads)
+        table = "".join(f"<tr>{row}</tr>" for row in (head, *rows))
+        notes = "".join(f"<li>{escape(finding.text)}</li>" for finding in self.findings[:LISTED])
+        return f"<p>{escape(self.summary)}</p><table>{table}</table>" + (f"<ul>{notes}</ul>" if notes else "")
 
 
-def _html_row(tag: str, cells: Sequence[str]) -> str:
-    return "<tr>" + "".join(f'<{tag} style="text-align: left">{escape(cell)}</{tag}>' for cell in cells) + "</tr>"
+def error_bar(percentiles: np.ndarray) -> str:
+    """SVG of an error bar, on an axis from 0, or around it where 0 is far; "" if there is no spread."""
+    low, middle, high = percentiles.tolist()
+    if not high > low:
+        return ""
+    first, last = min(0.0, low), max(0.0, high)
+    if high - low < NARROW * (last - first):
+        first, last = middle - 2 * (high - low), middle + 2 * (high - low)
+    a, b, c = (BAR * (value - first) / (last - first) for value in (low, middle, high))
+    return (
+        f'<svg role="img" aria-label="from {low:.3g} to {high:.3g}" width="{BAR + 8}" height="14" fill="currentColor" '
+        'stroke="currentColor"><g transform="translate(4,0)">'
+        f'<path d="M{a:.1f},7H{c:.1f}M{a:.1f},3v8M{c:.1f},3v8"/><circle cx="{b:.1f}" cy="7" r="3"/></g></svg>'
+    )
 
 
 def _percentiles(values: np.ndarray, percents: Sequence[float]) -> np.ndarray:

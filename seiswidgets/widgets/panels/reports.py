@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from ipywidgets import HTML, VBox
 
+from seiswidgets.geology.ensembles.ensemble import Ensemble
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.widgets.messages import HINT, in_the_app
 from seiswidgets.widgets.severity import remark
@@ -17,12 +18,13 @@ class Reports(VBox):
 
     Attributes
     ----------
-    page : HTML
+    page, errors : HTML
+        The report, and the error bars of its numbers.
     """
 
     def __init__(self) -> None:
-        self.page = HTML(NOTHING)
-        super().__init__([self.page])
+        self.page, self.errors = HTML(NOTHING), HTML()
+        super().__init__([self.page, self.errors])
 
     def show(self, restoration: Restoration) -> None:
         """Show the findings of a restoration, worst first, and below them the reports on its stages."""
@@ -31,3 +33,7 @@ class Reports(VBox):
         ]
         tables = [replace(stage.report, findings=())._repr_html_() for stage in restoration.stages]
         self.page.value = "".join([*remarks, *tables]) or NOTHING
+
+    def show_errors(self, ensemble: Ensemble | None) -> None:
+        """Show the error bars of an ensemble below the reports, or none."""
+        self.errors.value = f"<b>Error bars</b>{ensemble._repr_html_()}" if ensemble else ""

@@ -72,7 +72,7 @@ class SectionPane(WithParts, VBox):
     height : int or None
         Height of the pane with its axes, in css pixels; None for that of the box around it. It is as wide as the page.
     picture : LivePicture, optional
-        Picture that the browser draws instead of the section; colours and overlays are then its own.
+        Picture that the browser draws instead of the section; its colours are then its own.
     restored : bool
         True to draw the restored section of that picture.
 
@@ -134,6 +134,8 @@ class SectionPane(WithParts, VBox):
         self.check_settings(settings)
         self._navigation, self._gestures = Navigation(), GestureReader()
         self._mesh: Mesh | None = None
+        self._lines: list[dict[str, Any]] = []
+        self._bands: list[dict[str, Any]] = []
         self._gesture_listeners: list[GestureListener] = []
         self._hover_listeners: list[HoverListener] = []
         self._flag_listeners: list[Callable[[int], None]] = []
@@ -158,7 +160,13 @@ class SectionPane(WithParts, VBox):
 
     def draw_lines(self, strokes: Sequence[Stroke]) -> None:
         """Replace the lines on the section."""
-        self.layer.strokes = [stroke.state() for stroke in strokes]
+        self._lines = [stroke.state() for stroke in strokes]
+        self.layer.strokes = [*self._bands, *self._lines]
+
+    def draw_bands(self, strokes: Sequence[Stroke]) -> None:
+        """Replace the lines below these, which belong to no pick."""
+        self._bands = [stroke.state() for stroke in strokes]
+        self.layer.strokes = [*self._bands, *self._lines]
 
     def draw_marks(self, marks: Sequence[Mark]) -> None:
         """Replace the marks on the section."""
@@ -280,6 +288,8 @@ class SectionPane(WithParts, VBox):
         with UI_LOCK:
             if change.name == "overlay":
                 self._painter.take_overlay(self.overlay)
+            if self.layer.picture is not None:
+                self.layer.shade = self.overlay.state(self.overlay_opacity) if self.overlay else {}
             self._painter.opacity = self.overlay_opacity
             self._painter.draw(self.view)
 

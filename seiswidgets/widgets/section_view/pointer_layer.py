@@ -40,6 +40,8 @@ class PointerLayer(anywidget.AnyWidget):
         Empty, or see `mesh_state`.
     mesh_opacity : float
         0 to 1.
+    shade : dict
+        Empty, or see `Overlay.state`.
     chain : list of dict
         Maps that carry a point to another pane, applied in order; see `map_state`.
     carried, linked : dict
@@ -69,6 +71,7 @@ class PointerLayer(anywidget.AnyWidget):
     rubber: List[Any] = List().tag(sync=True)
     mesh = Dict().tag(sync=True)
     mesh_opacity = Float(0.6).tag(sync=True)
+    shade = Dict().tag(sync=True)
     chain: List[Any] = List().tag(sync=True)
     carried = Dict().tag(sync=True)
     linked = Dict().tag(sync=True)

@@ -1974,6 +1974,19 @@ var PlotArea = class {
   }
 };
 
+// pointer_layer/shade.js
+function drawShade(image, shade, plotArea) {
+  if (!shade?.href || !shade.window) {
+    image.removeAttribute("href");
+    return;
+  }
+  const [left, right, top, bottom] = shade.window;
+  const [first, last] = [plotArea.toPixels(left, top), plotArea.toPixels(right, bottom)];
+  if (image.getAttribute("href") !== shade.href) image.setAttribute("href", shade.href);
+  const place = { x: first.x, y: first.y, width: last.x - first.x, height: last.y - first.y, opacity: shade.opacity };
+  for (const [name, value] of Object.entries(place)) image.setAttribute(name, String(value));
+}
+
 // pointer_layer/near.js
 function splitNear(line, centres2, radius) {
   if (!centres2.length) return { near: [], far: line };
@@ -2132,6 +2145,7 @@ var PARTS_BY_TRAIT2 = {
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
   stage: ["strokes", "marks"],
+  shade: ["mesh"],
   rubber: ["cursors"],
   linked: ["cursors"]
 };
@@ -2140,6 +2154,7 @@ function createElements(el) {
   const plot = append(el, "svg", "plot", { tabindex: 0, role: "application" });
   const axes = append(plot, "g", "axes");
   const inside = append(plot, "svg", "inside", { width: "100%", height: "100%" });
+  const shade = append(inside, "image", "shade", { preserveAspectRatio: "none" });
   const mesh = append(inside, "path", "mesh");
   const [strokes, marks, grown, linked, own, band] = ["strokes", "marks", "grown", "linked", "own", "band"].map(
     (name) => append(inside, "g", name)
@@ -2147,7 +2162,7 @@ function createElements(el) {
   const note = document.createElement("div");
   note.className = "note";
   el.append(note);
-  return { plot, axes, mesh, strokes, marks, grown, linked, own, band, note };
+  return { plot, axes, shade, mesh, strokes, marks, grown, linked, own, band, note };
 }
 var LayerView = class {
   /**
@@ -2198,7 +2213,10 @@ var LayerView = class {
     if (outdated.has("axes")) this.drawAxes();
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
-    if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
+    if (outdated.has("mesh")) {
+      drawShade(elements.shade, model.get("shade"), plotArea);
+      drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
+    }
     if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
     const marks = live.placedMarks(model.get("marks"));
     if (outdated.has("strokes")) this.drawLines(marks);

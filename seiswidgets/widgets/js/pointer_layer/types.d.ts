@@ -35,6 +35,8 @@ export type Mark = {
   path?: string;
 };
 
+export type Shade = { href: string; window: number[]; opacity: number };
+
 export type Mesh = { vertices: DataView; edges: DataView };
 
 export type AffineMapState = { source: DataView; target: DataView; triangles: DataView; tolerance: number };
@@ -48,6 +50,7 @@ export type Traits = {
   rubber: [number, number][];
   mesh: Partial<Mesh>;
   mesh_opacity: number;
+  shade?: Partial<Shade>; // none in handouts
   chain: AffineMapState[];
   carried: Partial<SectionPoint>;
   linked: Partial<SectionPoint>;

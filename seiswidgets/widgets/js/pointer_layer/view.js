@@ -11,6 +11,7 @@ import { LivePane } from "./live_pane.js";
 import { drawMarks } from "./marks.js";
 import { drawMesh } from "./mesh.js";
 import { PlotArea } from "./plot_area.js";
+import { drawShade } from "./shade.js";
 import { decodeStroke, drawStrokes } from "./strokes.js";
 
 const REST = 250; // ms without a wheel step or a drag before the picture may be sharpened
@@ -35,6 +36,7 @@ export const PARTS_BY_TRAIT = {
   mesh: ["mesh"],
   mesh_opacity: ["mesh"],
   stage: ["strokes", "marks"],
+  shade: ["mesh"],
   rubber: ["cursors"],
   linked: ["cursors"],
 };
@@ -45,6 +47,7 @@ function createElements(el) {
   const plot = append(el, "svg", "plot", { tabindex: 0, role: "application" });
   const axes = append(plot, "g", "axes");
   const inside = append(plot, "svg", "inside", { width: "100%", height: "100%" }); // clips what extends beyond
+  const shade = append(inside, "image", "shade", { preserveAspectRatio: "none" });
   const mesh = append(inside, "path", "mesh");
   const [strokes, marks, grown, linked, own, band] = ["strokes", "marks", "grown", "linked", "own", "band"].map(
     (name) => append(inside, "g", name),
@@ -52,7 +55,7 @@ function createElements(el) {
   const note = document.createElement("div");
   note.className = "note";
   el.append(note);
-  return { plot, axes, mesh, strokes, marks, grown, linked, own, band, note };
+  return { plot, axes, shade, mesh, strokes, marks, grown, linked, own, band, note };
 }
 
 /** Draws the traits of the layer in one element. */
@@ -113,7 +116,10 @@ export class LayerView {
     if (outdated.has("axes")) this.drawAxes();
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
-    if (outdated.has("mesh")) drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
+    if (outdated.has("mesh")) {
+      drawShade(elements.shade, model.get("shade"), plotArea);
+      drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
+    }
     if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
     const marks = live.placedMarks(model.get("marks"));
     if (outdated.has("strokes")) this.drawLines(marks);
