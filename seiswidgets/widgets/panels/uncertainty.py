@@ -79,7 +79,9 @@ class UncertaintyPanel(VBox):
         self.run_button = Button(description="Run", icon="play", tooltip="Restore with errors drawn at random")
         self.cancel_button = Button(description="Cancel", icon="stop", disabled=True)
         self.progress = FloatProgress(min=0, max=1, layout=Layout(width="160px", visibility="hidden"))
-        self.map_box = Checkbox(description="map of the spread, on the present-day section", indent=False)
+        self.map_box = Checkbox(
+            description="map of the spread, on the present-day section", indent=False, layout=Layout(**WIDE)
+        )
         self.message, self.table = HTML(HINT.format(EXPLAINED)), HTML()
         row = HBox([self.run_button, self.cancel_button, self.progress], layout=Layout(flex_flow="row wrap"))
         super().__init__([*self.sliders.values(), self.members, row, self.map_box, self.message, self.table])
