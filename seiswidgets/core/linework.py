@@ -71,13 +71,15 @@ def follow_border(line: LineString, border: LineString, reach: np.ndarray) -> Li
             points[index] = corners[np.argmin(to_corners)]
     arc_lengths = shapely.line_locate_point(border, shapely.points(points))
     points[near] = shapely.get_coordinates(shapely.line_interpolate_point(border, arc_lengths[near]))
-    parts = [points[:1]]
+    parts, vertices = [points[:1]], np.hypot(*np.diff(shapely.get_coordinates(border), axis=0).T).cumsum()
     middles = shapely.dwithin(shapely.points((points[1:] + points[:-1]) / 2 / reach), scaled, AWAY)
     for index in range(1, len(points)):
-        along = near[index - 1] and near[index] and middles[index - 1]
-        between = _border_between(border, *arc_lengths[index - 1 : index + 1]) if along else None
-        if between is not None and between.length <= STRAIGHT * np.hypot(*(points[index] - points[index - 1])):
-            parts.append(shapely.get_coordinates(between)[1:-1])
+        start, stop = arc_lengths[index - 1 : index + 1].tolist()
+        direct, around = abs(stop - start), border.length - abs(stop - start)
+        is_along = near[index - 1] and near[index] and middles[index - 1]
+        is_along &= min(direct, around) <= STRAIGHT * np.hypot(*(points[index] - points[index - 1]))
+        if is_along and (direct > around or np.diff(np.searchsorted(vertices, sorted((start, stop))))[0]):
+            parts.append(shapely.get_coordinates(_border_between(border, start, stop))[1:-1])
         parts.append(points[index : index + 1])
     laid = shapely.remove_repeated_points(LineString(np.concatenate(parts)), REPEATED * float(np.min(reach)))
     return laid if laid.length > 0 else line

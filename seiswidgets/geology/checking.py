@@ -8,13 +8,18 @@ from seiswidgets.geology.blocks import Blocks, mesh_blocks
 from seiswidgets.geology.crossings import crossing_findings
 from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.observations import observe_picks
-from seiswidgets.geology.picks import Horizon, Interpretation
-from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob, Step
+from seiswidgets.geology.picks import Fault, Horizon, Interpretation
+from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.stage import STRIP
+from seiswidgets.geology.steps import FLATTEN, UNFAULT, WITH_LAYERS, Step
+from seiswidgets.geology.stratified_rock import fault_lines_of
+from seiswidgets.geology.surfaces import surface_line
 from seiswidgets.geology.unfaulting import free_vertices
 from seiswidgets.geology.usable_picks import Beds, EndsOfFaults, Lines
 from seiswidgets.geology.validation import checked_kind
+from seiswidgets.geology.vertical_shear import LENGTH
 
 
 def check(section: Section, interpretation: Interpretation, plan: Plan | None = None) -> list[Finding]:
@@ -50,21 +55,37 @@ def check(section: Section, interpretation: Interpretation, plan: Plan | None = 
 
 
 def _idle_steps(job: RestorationJob) -> Iterator[Finding]:
-    """A note about each step that is on, but none of whose picks is to be used."""
+    """A note about each step that is on, but lacks what it works on."""
     for step in job.plan.steps:
         drawn = job.interpretation.faults if step.kind == UNFAULT else job.interpretation.horizons
         if step.on and drawn and step not in job.steps:
-            text = f"the step {step.kind} is skipped: the use of none of its picks is 'constrain'"
-            yield Finding("note", "skipped", text)
+            lacks = (
+                "there is no stratigraphy"
+                if step.kind in WITH_LAYERS
+                else "the use of none of its picks is 'constrain'"
+            )
+            yield Finding("note", "skipped", f"the step {step.kind} is skipped: {lacks}")
 
 
 def _check_step(start: Restoration, job: RestorationJob, step: Step) -> Sequence[Finding]:
     try:
         if step.kind == UNFAULT:
             return _check_unfaulting(start, job, step)
-        return _check_flattening(start, job.horizon(step))
+        if step.kind in WITH_LAYERS and job.plan.stratigraphy:
+            rock = start.stratified(job.plan.stratigraphy, job.interpretation)
+            _ = rock.layers.layer_of_face
+            return rock.notes
+        if step.kind == STRIP or (step.kind == FLATTEN and step.by != LENGTH):
+            return _check_surface(start, job.horizon(step), job.interpretation.faults)
+        return _check_flattening(start, job.horizon(step)) if step.kind == FLATTEN else ()
     except SeiswidgetsError as error:
         return [_refusal(error)]
+
+
+def _check_surface(start: Restoration, horizon: Horizon, faults: Sequence[Fault]) -> Sequence[Finding]:
+    picks = start.usable_picks
+    _, notes = surface_line(horizon.name, picks.bed_lines(horizon), fault_lines_of(picks, faults), start.domain)
+    return (*notes, *picks.notes([horizon]))
 
 
 def _check_flattening(start: Restoration, horizon: Horizon) -> Sequence[Finding]:
@@ -77,7 +98,7 @@ def _check_unfaulting(start: Restoration, job: RestorationJob, step: Step) -> Se
         return mesh_blocks(start.domain, lines, beds, walls, ends, profiles=job.slip(step))
 
     faults, boundaries = job.faults(step), job.boundaries(step)
-    blocks, notes = start.usable_picks.use(mesh, faults, job.interpretation.horizons, boundaries)
+    blocks, notes = start.usable_picks.use(mesh, faults, job.horizons(step), boundaries)
     found = [*notes, *observe_picks(blocks, start.domain)]
     try:
         holds = start.usable_picks.holds(job.plan.fixed, job.plan.pins, job.plan.regional)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 from shapely import LineString
 
 from seiswidgets.core.mesh import Mesh, triangle_areas
@@ -14,6 +15,9 @@ from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.report import CLOSED_FORM, Observations
 from seiswidgets.geology.stage import Outcome, Stage
+
+LEAST = 1e-3  # of its area, that a triangle keeps
+SMOOTHINGS = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,16 +60,17 @@ class ClosedForm:
         began: float | None = None,
         burial: np.ndarray | None = None,
     ) -> Stage:
-        """The stage that moves a mesh's vertices.
+        """The stage that moves a mesh's vertices; their displacement is smoothed where it would turn triangles over.
 
         Raises
         ------
         FlippedError
-            If triangles are turned over.
+            If triangles are turned over even so.
         Cancelled
             If ``progress`` returned False.
         """
-        flipped = np.flatnonzero(triangle_areas(vertices, mesh.triangles) <= 0)
+        smooth = _without_flips(mesh, vertices)
+        flipped = np.flatnonzero(_squashed(mesh, smooth))
         if len(flipped):
             point = mesh.vertices[mesh.triangles[flipped[0]]].mean(axis=0)
             raise FlippedError(
@@ -75,6 +80,8 @@ class ClosedForm:
                 count=len(flipped),
                 where=self.domain.position(point),
             )
+        notes = (*notes, *self._smoothed(mesh, vertices, smooth))
+        vertices = smooth
         if self.progress is not None and self.progress(1, 0.0, vertices) is False:
             raise Cancelled("cancelled")
         solution = Solution(vertices, (), 0, 0, True, ())
@@ -82,3 +89,39 @@ class ClosedForm:
         outcome = Outcome(self.picks, solution, CLOSED_FORM, seconds, observe, tuple(notes))
         setup = PlainSetup(mesh, ())
         return Stage(self.kind, mesh, vertices, (), self.domain, outcome, setup, self.boundaries, burial=burial)
+
+    def _smoothed(self, mesh: Mesh, vertices: np.ndarray, smooth: np.ndarray) -> tuple[Finding, ...]:
+        """A finding if the displacement was changed by more than the slack, where it was most."""
+        change = np.abs(smooth - vertices).max(axis=1)
+        if change.max() <= self.domain.slack:
+            return ()
+        point = mesh.vertices[np.argmax(change)]
+        text = (
+            f"the rock moves so differently from column to column near {self.domain.where(point)} that the step "
+            f"{self.kind} was smoothed there, by up to {self.domain.length(change.max())}; a fault whose slip was not "
+            "undone, or a steep surface, does that"
+        )
+        return (Finding("warning", "smoothed", text, where=self.domain.position(point)),)
+
+
+def _squashed(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
+    """True for triangles that have lost nearly all of their area, or are turned over."""
+    return np.asarray(triangle_areas(vertices, mesh.triangles) <= LEAST * mesh.areas)
+
+
+def _without_flips(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
+    """Vertices whose displacement is averaged with their neighbours' until no triangle is turned over."""
+    if not _squashed(mesh, vertices).any():
+        return vertices
+    count = len(vertices)
+    pairs = np.vstack([mesh.edges, mesh.edges[:, ::-1]])
+    mean = csr_array((np.ones(len(pairs)), pairs.T), shape=(count, count))
+    mean = mean.multiply(1 / np.maximum(mean.sum(axis=1), 1)[:, None]).tocsr()
+    displacement = vertices - mesh.vertices
+    for _ in range(SMOOTHINGS):
+        bad = _squashed(mesh, mesh.vertices + displacement)
+        if not bad.any():
+            break
+        moved = np.unique(mesh.triangles[bad])
+        displacement[moved] = (mean @ displacement)[moved]
+    return np.asarray(mesh.vertices + displacement)

@@ -94,16 +94,23 @@ class ColumnCompaction:
     def of(
         cls, columns: Columns, x: np.ndarray, memory: BurialMemory, stratigraphy: Stratigraphy
     ) -> "ColumnCompaction":
-        """Read the porosity of columns at x from what is remembered; where nothing is, from the depth below the top."""
+        """Read the porosity of columns at x from what is remembered.
+
+        Where nothing is, as below the rock, burial grows with depth from what is known above.
+        """
         depth = columns.nodes - columns.surface[:, None, None]
         rock = (columns.layer != WATER) & (columns.thickness > 0)
         inside = columns.nodes + INWARDS * columns.thickness[..., None] * [1, -1]
         points = np.stack([np.broadcast_to(x[:, None, None], inside.shape), inside], axis=-1)[rock]
         ends = memory(points.reshape(-1, 2)).reshape(-1, 2)
         middle, half = ends.mean(axis=1), np.diff(ends, axis=1)[:, 0] / (2 - 4 * INWARDS)
-        burial = depth.copy()
-        known = np.isfinite(middle)
-        burial[rock] = np.where(known[:, None], np.column_stack([middle - half, middle + half]), depth[rock])
+        burial = np.full(depth.shape, np.nan)
+        burial[rock] = np.column_stack([middle - half, middle + half])
+        shift = (burial - depth)[..., 1]
+        for index in range(shift.shape[1]):  # from the stretch above, downwards
+            above = shift[:, index - 1] if index else np.zeros(len(shift))
+            shift[:, index] = np.where(np.isnan(shift[:, index]), above, shift[:, index])
+        burial = np.where(np.isnan(burial), depth + shift[..., None], burial)
         return cls(columns, np.maximum(burial, 0), stratigraphy)
 
     def _constants(self, stretch: int) -> tuple[np.ndarray, np.ndarray]:
@@ -146,7 +153,9 @@ def decompact_stage(
     notes: Sequence[Finding] = (),
     progress: Progress | None = None,
 ) -> Stage:
-    """Let rock expand to the porosity of its present depth below the top; the bottom of each column stays.
+    """Let rock expand to the porosity of its present depth below the top; the bottom of the section stays.
+
+    Where rock is missing at the bottom of a column, what lies there now counts as going on down.
 
     Parameters
     ----------
@@ -162,7 +171,7 @@ def decompact_stage(
     tops = {(HORIZON, _name(stratigraphy, index)): lines for index, lines in layers.tops.items()}
     mesh = domain.mesh(tops | {(FAULT, ""): layers.faults})
     x, z = mesh.vertices.T
-    columns = layers.columns(x, z, PARTS)
+    columns = layers.columns(x, z, PARTS).down_to(domain.outline.bounds[3])
     compaction = ColumnCompaction.of(columns, x, memory, stratigraphy)
     thickness, depth = compaction.expanded()
     rise = _at_or_above(np.cumsum(thickness - columns.thickness, axis=1), columns.at)

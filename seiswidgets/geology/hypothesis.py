@@ -7,10 +7,11 @@ import numpy as np
 
 from seiswidgets.geology.bodies import Body
 from seiswidgets.geology.picks import Horizon, Interpretation
-from seiswidgets.geology.plan import UNFAULT, Plan, RestorationJob
+from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile
+from seiswidgets.geology.steps import UNFAULT
 from seiswidgets.geology.validation import checked_kind
 
 FIRST_NAME = "A"  # of a section's only hypothesis
@@ -86,7 +87,10 @@ def _deepened(hypothesis: Hypothesis, factor: float) -> Hypothesis:
     horizons = [
         Horizon(*(piece * scale for piece in pick.pieces), name=pick.name, use=pick.use) for pick in picks.horizons
     ]
-    steps = (replace(step, datum=None if step.datum is None else step.datum * factor) for step in plan.steps)
+    steps = (
+        replace(step, datum=deeper(step.datum) if isinstance(step.datum, tuple) else step.datum and step.datum * factor)
+        for step in plan.steps
+    )
     regional = plan.regional
     return replace(
         hypothesis,

@@ -9,11 +9,13 @@ import shapely
 from shapely import LineString
 
 from seiswidgets.core.point_location import concatenate_ranges
+from seiswidgets.errors import PickError
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.fault_lines import fault_lines
 from seiswidgets.geology.segments import HorizonSegment, horizon_segments, nearest_fault_ahead
 
 WATER = -1  # layer of what lies above the youngest top, and of holes
-BESIDE = 1e-3  # of a sample: distance of a point on either side of a horizon
+BESIDE = 1e-3  # of a sample: distance of a point on either side of a horizon, and of an end beyond a line it meets
 SPECK = 1e-6  # of the rock's area: a smaller face is rounding
 
 
@@ -46,7 +48,8 @@ class Layers:
 
     @cached_property
     def _linework(self) -> shapely.Geometry:
-        inside = shapely.intersection(self.lines, self.domain.outline) if self.lines else []
+        lines = [_overshooting(line, self.domain) for line in self.lines]
+        inside = shapely.intersection(lines, self.domain.outline) if lines else []
         return shapely.union_all([self.domain.outline.boundary, *inside])
 
     @cached_property
@@ -180,6 +183,14 @@ class Columns:
     layer: np.ndarray
     at: np.ndarray
 
+    def down_to(self, depth: float) -> "Columns":
+        """The columns continued by the rock at their bottom to one depth; a stretch more in each."""
+        last = np.maximum(self.layer.shape[1] - 1 - np.argmax((self.thickness > 0)[:, ::-1], axis=1), 0)[:, None]
+        bottom = np.take_along_axis(self.nodes[..., 1], last, axis=1)
+        rest = np.stack([bottom, np.maximum(bottom, depth)], axis=-1)
+        layer = np.take_along_axis(self.layer, last, axis=1)
+        return Columns(np.concatenate([self.nodes, rest], axis=1), np.hstack([self.layer, layer]), self.at)
+
     @property
     def thickness(self) -> np.ndarray:
         """Thickness of each stretch, shape (n, k)."""
@@ -230,15 +241,34 @@ def layers_of(
     youngest : int
         See `Layers`.
     """
+    faults = _joined_faults(faults, domain)
     segments = {layer: horizon_segments(lines, faults, domain.cell) for layer, lines in pieces.items()}
     tops = {}
     for layer, parts in segments.items():
         others = [part.line for other, own in segments.items() if other != layer for part in own]
         walls = [*faults, *others, *_border_lines(domain)]
-        lines = [domain.simplify(_drawn_on(part, walls, domain)) for part in parts]
+        lines = [domain.on_border(domain.simplify(_drawn_on(part, walls, domain))) for part in parts]
         tops[layer] = [line for line in lines if line.intersects(domain.outline)]
-    faults = [part for line in faults for part in _inside(domain.simplify(line), domain)]
+    faults = [part for line in faults for part in _inside(line, domain)]
     return Layers(domain, {layer: lines for layer, lines in tops.items() if lines}, faults, count, youngest)
+
+
+def _joined_faults(faults: Sequence[LineString], domain: RestorationDomain) -> list[LineString]:
+    """Simplified faults that meet what they nearly meet; as they are if one of them cannot be used so."""
+    try:
+        lines = fault_lines({str(index): _points(line) for index, line in enumerate(faults)}, domain)
+    except PickError:
+        return [domain.simplify(line) for line in faults]
+    return [domain.simplify(line) for line in lines.values()]
+
+
+def _overshooting(line: LineString, domain: RestorationDomain) -> LineString:
+    """A line made longer by a thousandth of a sample at both ends, so that rounding leaves no gap where it ends."""
+    points = _points(line).copy()
+    for which, inner in ((0, 1), (-1, -2)):
+        arm = points[which] - points[inner]
+        points[which] += BESIDE * domain.sample * arm / np.hypot(*arm)
+    return LineString(points)
 
 
 def _border_lines(domain: RestorationDomain) -> list[LineString]:
@@ -260,9 +290,7 @@ def _drawn_on(segment: HorizonSegment, walls: Sequence[LineString], domain: Rest
         end = nearest_fault_ahead(segment.line, which, walls, domain.cell)
         target = np.array(end.point) if end else _level(points, which, walls, width)
         if target is not None and np.hypot(*(target - points[which])) > 0:
-            arm = target - points[which]
-            beyond = target + 1e-3 * domain.sample * arm / np.hypot(*arm)  # so that rounding leaves no gap
-            points = np.insert(points, 0 if which == 0 else len(points), beyond, axis=0)
+            points = np.insert(points, 0 if which == 0 else len(points), target, axis=0)
     return LineString(points)
 
 

@@ -9,9 +9,9 @@ from seiswidgets.errors import PickError
 from seiswidgets.geology.bed_lines import bed_extent
 from seiswidgets.geology.cutoffs import cutoffs
 from seiswidgets.geology.picks import IGNORE, Fault, Horizon, Interpretation
-from seiswidgets.geology.plan import UNFAULT
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.steps import UNFAULT
 
 THROW, HEAVE, SLIP, EXTENSION, BED_LENGTH = "throw", "heave", "slip", "extension", "bed length"
 BED_CHANGE, AREA_CHANGE, ROTATION, DEFORMATION = "bed change", "area change", "rotation", "deformation"

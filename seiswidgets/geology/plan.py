@@ -9,6 +9,7 @@ cut-offs lie between vertices of the faults, and the vertices at the corners of 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import takewhile
+from typing import Any
 
 import numpy as np
 
@@ -16,68 +17,26 @@ from seiswidgets.core.solver import Progress
 from seiswidgets.core.triangulation import DENSITY
 from seiswidgets.errors import PickError, SettingError
 from seiswidgets.geology import validation
-from seiswidgets.geology.beyond import FREE, check_beyond
+from seiswidgets.geology.flexure import BEYONDS, MIRROR, Isostasy
 from seiswidgets.geology.passive import carried_finding
 from seiswidgets.geology.picks import CONSTRAIN, MISSING, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.slip_profile import SlipProfile, checked_slip
+from seiswidgets.geology.sequence import FaultActivity, sequential_steps
+from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.solve import GAUSS_NEWTON, SolverKeywords, SolverOptions
-from seiswidgets.geology.stage import Stage
+from seiswidgets.geology.stage import DECOMPACT, ISOSTASY, STRIP, UNERODE, Stage
+from seiswidgets.geology.steps import FLATTEN, ON_A_HORIZON, UNFAULT, WITH_LAYERS, Step
+from seiswidgets.geology.stratigraphy import Stratigraphy
+from seiswidgets.geology.vertical_shear import VERTICAL_SHEAR
 from seiswidgets.geology.weights import Weights
 
-UNFAULT, FLATTEN = "unfault", "flatten"
 UNUSED_WEIGHTS = {UNFAULT: ("flatten", "length"), FLATTEN: ("slide", "stitch", "rotation")}
 COARSE, QUICK = 3.0, 2  # a preview's mesh spacing as a multiple of the full one, and its number of iterations
 EDGES, VERTICES = 3, 100  # least numbers in a preview's mesh: edges along each pick, vertices in all
 
 
 StepProgress = Callable[[int, int, float], bool | None]
-
-
-@dataclass(frozen=True)
-class Step:
-    """One step of a plan.
-
-    Parameters
-    ----------
-    kind : {"unfault", "flatten"}
-    picks : tuple of str
-        Names of the faults to slide along, or of the one horizon to flatten; a single name may be a string. By default
-        all faults, or the first horizon.
-    datum : float, optional
-        The level to flatten to, in the section's unit of z; the horizon's mean level if left out.
-    on : bool
-        A step that is off is left out.
-    slip : dict of str to SlipProfile
-        Slip to undo along some of the faults, by name; see `Restoration.unfault`. Names of faults that the step does
-        not slide along have no effect.
-    beyond : {"free", "keep", "level", "trend"}
-        What happens to the rock beyond the ends of the horizon; see `Restoration.flatten`.
-
-    Raises
-    ------
-    SettingError
-        If the kind or ``beyond`` is not one of these, the datum is not a finite number, or a slip is not a
-        SlipProfile.
-    """
-
-    kind: str
-    picks: tuple[str, ...] = ()
-    datum: float | None = None
-    on: bool = True
-    slip: Mapping[str, SlipProfile] = field(default_factory=dict, hash=False)
-    beyond: str = FREE
-
-    def __post_init__(self) -> None:
-        if self.kind not in (UNFAULT, FLATTEN):
-            raise SettingError(f"a step must be {UNFAULT!r} or {FLATTEN!r}, but is {self.kind!r}")
-        names: str | tuple[str, ...] = self.picks
-        object.__setattr__(self, "picks", (names,) if isinstance(names, str) else tuple(names))
-        if self.datum is not None:
-            object.__setattr__(self, "datum", validation.finite_number("datum", self.datum))
-        check_beyond(self.beyond)
-        object.__setattr__(self, "slip", checked_slip(self.slip, tuple(self.slip or ())))
 
 
 @dataclass(frozen=True)
@@ -97,6 +56,12 @@ class Plan:
     pins : tuple of (x, z)
     regional : float or tuple of (x, z), optional
         Points that stay, and a level that is kept; see `Restoration.unfault`.
+    stratigraphy : Stratigraphy, optional
+        The layers, for the steps "decompact" and "isostasy", which are left out without it.
+    isostasy : Isostasy, optional
+        The crust, for the step "isostasy"; Airy's by default.
+    load_beyond : {"mirror", "constant", "zero"}
+        The load beyond the section; see `Restoration.isostasy`.
 
     Raises
     ------
@@ -123,6 +88,9 @@ class Plan:
     pins: tuple[tuple[float, float], ...] = ()
     regional: float | tuple[tuple[float, float], ...] | None = None
     weighting: str | None = None
+    stratigraphy: Stratigraphy | None = None
+    isostasy: Isostasy | None = None
+    load_beyond: str = MIRROR
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "steps", tuple(self.steps))
@@ -137,6 +105,67 @@ class Plan:
             object.__setattr__(self, "regional", validation.finite_number("regional", self.regional))
         elif self.regional is not None:
             object.__setattr__(self, "regional", validation.held_points("regional", self.regional))
+        if self.stratigraphy is not None:
+            validation.checked_kind(self.stratigraphy, Stratigraphy, "stratigraphy")
+        if self.isostasy is not None:
+            validation.checked_kind(self.isostasy, Isostasy, "isostasy")
+        if self.load_beyond not in BEYONDS:
+            raise SettingError(f"load_beyond must be {', '.join(map(repr, BEYONDS))}, but is {self.load_beyond!r}")
+
+    @classmethod
+    def sequential(
+        cls,
+        stratigraphy: Stratigraphy,
+        interpretation: Interpretation,
+        *,
+        activity: FaultActivity | Mapping[str, Sequence[str]] | None = None,
+        decompact: bool = True,
+        isostasy: Isostasy | None = None,
+        unfold: str = VERTICAL_SHEAR,
+        **options: Any,
+    ) -> "Plan":
+        """The plan that takes a section back through time, from the youngest layer to the oldest.
+
+        For each top in turn it strips what lies above, undoes the slip of the faults that moved before the next younger
+        top was laid down, lets the rest expand, lets the crust rise, and brings the top to its depth below the sea.
+
+        Parameters
+        ----------
+        stratigraphy : Stratigraphy
+        interpretation : Interpretation
+        activity : FaultActivity, or dict of str to list of str, optional
+            Which faults moved when, if not as `FaultActivity.of` derives it: the names of the faults whose slip is
+            undone when a top is the surface, by the name of that top.
+        decompact : bool
+            False leaves out compaction.
+        isostasy : Isostasy, optional
+            Left out without it. Its sea level is the one that water depths are measured from, otherwise z = 0.
+        unfold : {"vertical shear", "length"}
+            How a top is brought to its depth; see `Restoration.flatten`.
+        **options
+            Other fields of the plan, such as ``fixed``.
+
+        Raises
+        ------
+        PickError
+            If a top does not exist.
+        SettingError
+            If no layer has a horizon at its top.
+        """
+        validation.checked_kind(stratigraphy, Stratigraphy, "stratigraphy")
+        validation.checked_kind(interpretation, Interpretation, "interpretation")
+        activity = FaultActivity.of(stratigraphy, interpretation) if activity is None else activity
+        if isinstance(activity, FaultActivity):
+            activity = {top: activity.moved(top) for top in stratigraphy.tops}
+        steps = sequential_steps(
+            stratigraphy,
+            activity,
+            decompact=decompact,
+            isostasy=isostasy is not None,
+            unfold=unfold,
+            sea_level=(isostasy.sea_level or 0.0) if isostasy else 0.0,
+        )
+        return cls(steps, stratigraphy=stratigraphy, isostasy=isostasy, **options)
 
     def restore(
         self,
@@ -180,10 +209,14 @@ class RestorationJob:
         return [step for step in self.plan.steps if step.on and self._has_picks(step)]
 
     def _has_picks(self, step: Step) -> bool:
-        if step.kind == FLATTEN:
+        if step.kind in WITH_LAYERS:
+            return self.plan.stratigraphy is not None
+        if step.kind in ON_A_HORIZON:
             return bool(step.picks) or any(horizon.use == CONSTRAIN for horizon in self.interpretation.horizons)
         unused = {fault.name for fault in self.interpretation.faults if fault.use != CONSTRAIN}
-        return not unused.issuperset(step.picks or [fault.name for fault in self.interpretation.faults])
+        return step.kind == UNERODE or not unused.issuperset(
+            step.picks or [fault.name for fault in self.interpretation.faults]
+        )
 
     @property
     def start(self) -> Restoration:
@@ -236,6 +269,8 @@ class RestorationJob:
     def _carry_out(
         self, restoration: Restoration, step: Step, start: Stage | None, progress: Progress | None
     ) -> Restoration:
+        if step.kind not in (UNFAULT, FLATTEN):
+            return self._step_in_time(restoration, step, progress)
         options: SolverKeywords = {
             "weights": self.plan.weights,
             "solver": self.plan.solver,
@@ -245,13 +280,41 @@ class RestorationJob:
             "start": start,
         }
         if step.kind == UNFAULT:
-            faults, horizons, others = self.faults(step), self.interpretation.horizons, self.boundaries(step)
-            fixed, pins, regional, slip = self.plan.fixed, self.plan.pins, self.plan.regional, self.slip(step)
             return restoration.unfault(
-                faults, horizons, boundaries=others, fixed=fixed, pins=pins, regional=regional, slip=slip, **options
+                self.faults(step),
+                self.horizons(step),
+                boundaries=self.boundaries(step),
+                fixed=self.plan.fixed,
+                pins=self.plan.pins,
+                regional=self.plan.regional,
+                slip=self.slip(step),
+                age=step.age,
+                **options,
             )
-        beyond, beds = step.beyond, self._beds
-        return restoration.flatten(self.horizon(step), datum=step.datum, beyond=beyond, beds=beds, **options)
+        return restoration.flatten(
+            self.horizon(step),
+            datum=step.datum,
+            by=step.by,
+            beyond=step.beyond,
+            beds=self._beds,
+            age=step.age,
+            **options,
+        )
+
+    def _step_in_time(self, restoration: Restoration, step: Step, progress: Progress | None) -> Restoration:
+        """Carry out a step that needs no solver."""
+        plan, picks = self.plan, self.interpretation
+        if step.kind == STRIP:
+            return restoration.strip(self.horizon(step), faults=picks.faults, age=step.age, progress=progress)
+        if step.kind == UNERODE and step.datum is not None:
+            return restoration.unerode(step.datum, age=step.age, progress=progress)
+        layers = plan.stratigraphy
+        if layers is None:
+            raise SettingError(f"the step {step.kind} needs a stratigraphy; give the plan one")
+        if step.kind == DECOMPACT:
+            return restoration.decompact(layers, picks, age=step.age, progress=progress)
+        crust = plan.isostasy or Isostasy()
+        return restoration.isostasy(crust, layers, picks, beyond=plan.load_beyond, age=step.age, progress=progress)
 
     @property
     def _beds(self) -> Sequence[Horizon]:
@@ -262,6 +325,10 @@ class RestorationJob:
         """The faults that a step slides along; PickError if one does not exist."""
         return [self.interpretation.fault(name) for name in step.picks] or list(self.interpretation.faults)
 
+    def horizons(self, step: Step) -> Sequence[Horizon]:
+        """The horizons that a step matches across faults; PickError if one does not exist."""
+        return [self.interpretation.horizon(name) for name in step.horizons] or self.interpretation.horizons
+
     def slip(self, step: Step) -> dict[str, SlipProfile]:
         """The slip prescribed for the faults that a step slides along."""
         return {fault.name: step.slip[fault.name] for fault in self.faults(step) if fault.name in step.slip}
@@ -271,10 +338,10 @@ class RestorationJob:
         return [fault for fault in self.interpretation.faults if fault not in self.faults(step)]
 
     def horizon(self, step: Step) -> Horizon:
-        """The horizon that a step flattens; PickError if it does not exist."""
+        """The horizon that a step flattens or strips down to; PickError if it does not exist."""
         if len(step.picks) > 1:
             raise PickError(
-                f"one horizon is flattened at a time, but a step names {', '.join(map(repr, step.picks))}",
+                f"a step takes one horizon at a time, but a step names {', '.join(map(repr, step.picks))}",
                 kind=MISSING,
                 pick=step.picks[1],
             )
@@ -301,17 +368,31 @@ class RestorationJob:
             self.quick,
         )
         for step in self.steps:
-            picks: list[Fault | Horizon] = [self.horizon(step)] if step.kind == FLATTEN else [*self.faults(step)]
-            picks += [*self.boundaries(step), *self.interpretation.horizons] if step.kind == UNFAULT else self._beds
-            names = [field.name for field in fields(Weights) if field.name not in UNUSED_WEIGHTS[step.kind]]
-            weights = [getattr(self.plan.weights, name) for name in names]
+            names = [field.name for field in fields(Weights) if field.name not in UNUSED_WEIGHTS.get(step.kind, ())]
+            weights = [getattr(self.plan.weights, name) for name in names if step.kind in UNUSED_WEIGHTS]
             holds = (self.plan.fixed, self.plan.pins, self.plan.regional) if step.kind == UNFAULT else ()
+            crust = (self.plan.isostasy, self.plan.load_beyond) if step.kind == ISOSTASY else ()
+            layers = (self.plan.stratigraphy, crust) if step.kind in WITH_LAYERS else ()
             lines = [
-                (pick.name, pick.use, pick.ends if isinstance(pick, Fault) else "", *_lines(pick)) for pick in picks
+                (pick.name, pick.use, pick.ends if isinstance(pick, Fault) else "", *_lines(pick))
+                for pick in self._picks(step)
             ]
             count = len(self.faults(step)) if step.kind == UNFAULT else 0
             slip = self.slip(step) if step.kind == UNFAULT else {}
-            yield step.kind, step.datum, step.beyond, holds, count, lines, weights, slip, shared
+            options = step.kind, step.datum, step.by, step.beyond, step.age
+            yield options, holds, count, lines, weights, slip, layers, shared
+
+    def _picks(self, step: Step) -> list[Fault | Horizon]:
+        """The picks that a step depends on."""
+        faults = list(self.interpretation.faults)
+        if step.kind == UNFAULT:
+            return [*self.faults(step), *self.boundaries(step), *self.horizons(step)]
+        if step.kind == FLATTEN:
+            return [self.horizon(step), *self._beds]
+        if step.kind == STRIP:
+            return [self.horizon(step), *faults]
+        tops = self.plan.stratigraphy.tops if self.plan.stratigraphy and step.kind in WITH_LAYERS else []
+        return [*(self.interpretation.horizon(top) for top in tops), *(faults if tops else [])]
 
 
 def _lines(pick: Fault | Horizon) -> list[list[list[float]]]:

@@ -11,11 +11,10 @@ from seiswidgets.geology.decompaction import ColumnCompaction
 from seiswidgets.geology.domain import RestorationDomain
 from seiswidgets.geology.flexure import GRAVITY, Isostasy
 from seiswidgets.geology.report import Observations
-from seiswidgets.geology.stage import Stage
+from seiswidgets.geology.stage import ISOSTASY, Stage
 from seiswidgets.geology.stratified_rock import StratifiedRock
 
 CELLS = 512  # along the section, in which loads are weighed
-ISOSTASY = "isostasy"
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,13 +24,14 @@ class Weighing:
     Attributes
     ----------
     model : Isostasy
-    x_min, x_max : float
-        Ends of the section, in metres of rock.
+    x_min, x_max, bottom : float
+        Ends of the section, and the depth down to which it is weighed, in metres of rock.
     """
 
     model: Isostasy
     x_min: float
     x_max: float
+    bottom: float
 
     @property
     def step(self) -> float:
@@ -45,7 +45,7 @@ class Weighing:
 
     def load(self, rock: StratifiedRock) -> np.ndarray:
         """Weight of what lies in each cell, in Pa; that of the nearest cell where there is no rock."""
-        columns = rock.layers.columns(self.x)
+        columns = rock.layers.columns(self.x).down_to(self.bottom)
         compaction = ColumnCompaction.of(columns, self.x, rock.memory, rock.stratigraphy)
         grains = np.array([*(layer.rock.grain_density for layer in rock.stratigraphy.layers), 0.0])[columns.layer]
         pores, is_rock = compaction.pores(), columns.layer >= 0
@@ -78,8 +78,8 @@ def isostasy_stage(
     progress : callable, optional
     """
     began = time.perf_counter()
-    x_min, _, x_max, _ = domain.outline.bounds
-    weighing = Weighing(model, x_min, x_max)
+    x_min, _, x_max, bottom = domain.outline.bounds
+    weighing = Weighing(model, x_min, x_max, max(bottom, before.picks.domain.outline.bounds[3]))
     sunk = model.deflection(weighing.load(after) - weighing.load(before), weighing.step, beyond)
     mesh = domain.mesh({})
     vertices = mesh.vertices + np.outer(np.interp(mesh.vertices[:, 0], weighing.x, sunk), (0, 1))

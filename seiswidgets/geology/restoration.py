@@ -27,7 +27,7 @@ from seiswidgets.geology.report import verdict
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile, checked_slip
 from seiswidgets.geology.solve import SolverKeywords, SolverOptions
-from seiswidgets.geology.stage import DECOMPACT, STRIP, UNERODE, Stage
+from seiswidgets.geology.stage import ISOSTASY, STRIP, UNERODE, Stage
 from seiswidgets.geology.stratified_rock import StratifiedRock, fault_lines_of
 from seiswidgets.geology.stratigraphy import Profile, Stratigraphy, checked_profile
 from seiswidgets.geology.stripping import strip_stage
@@ -41,9 +41,7 @@ from seiswidgets.geology.transfer import (
 )
 from seiswidgets.geology.unfaulting import unfault_stage
 from seiswidgets.geology.usable_picks import Beds, EndsOfFaults, Lines, Regional, UsablePicks
-from seiswidgets.geology.vertical_shear import shear_flat_stage
-
-LENGTH, VERTICAL_SHEAR = "length", "vertical shear"
+from seiswidgets.geology.vertical_shear import FLATTENINGS, LENGTH, VERTICAL_SHEAR, shear_flat_stage
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +112,7 @@ class Restoration:
         pins: Sequence[tuple[float, float]] = (),
         regional: Regional = None,
         slip: Mapping[str, SlipProfile] | None = None,
+        age: float | None = None,
         **options: Unpack[SolverKeywords],
     ) -> "Restoration":
         """Slide the blocks back along some faults until the horizons match across them (the paper's section 3.1).
@@ -140,6 +139,8 @@ class Restoration:
         slip : dict of str to SlipProfile, optional
             Slip to undo along some of the faults, by name, in place of matching horizons there; such a fault needs
             none. At an end where a fault dies out the slip is reduced to 0.
+        age : float, optional
+            Time that the section after it stands for, in Ma.
         weights : Weights, optional
             Those of the paper if left out.
         solver : {"gauss-newton", "fixed-point"}
@@ -174,7 +175,7 @@ class Restoration:
             return unfault_stage(self.domain, lines, beds, holds, solver_options, walls, ends=ends, profiles=profiles)
 
         stage, notes = self.usable_picks.use(slide_blocks, faults, horizons, boundaries)
-        held = replace(stage, fixed=fixed, pins=tuple(pins), regional=regional)
+        held = replace(stage, fixed=fixed, pins=tuple(pins), regional=regional, age=age)
         drawn = _drawn(faults, boundaries, horizons)
         return self._with_stage(replace(held, weights=solver_options.weights, slip=profiles, drawn=drawn), notes)
 
@@ -216,6 +217,8 @@ class Restoration:
             rest moves.
         beds : list of Horizon, optional
             Horizons that give the direction of the beds besides this one, for ``weights.bedding``.
+        age : float, optional
+            Time that the section after it stands for, in Ma.
         weights, solver, weighting, max_iterations, progress, start
             As for `unfault`.
 
@@ -225,8 +228,8 @@ class Restoration:
             As for `unfault`.
         """
         solver_options = SolverOptions.from_keywords("flatten", options)
-        if by not in (LENGTH, VERTICAL_SHEAR):
-            raise SettingError(f"by must be {LENGTH!r} or {VERTICAL_SHEAR!r}, but is {by!r}")
+        if by not in FLATTENINGS:
+            raise SettingError(f"by must be {' or '.join(map(repr, FLATTENINGS))}, but is {by!r}")
         (horizon,) = validation.named_picks([horizon], Horizon, "horizon").values()
         picks = self.usable_picks
         pieces = picks.bed_lines(horizon)
@@ -292,8 +295,8 @@ class Restoration:
     ) -> "Restoration":
         """Let the rock expand to the porosity of its present depth of burial, column by column.
 
-        Each column keeps its thickness of grains, and its bottom stays where it is. Rock never becomes looser than its
-        deepest burial so far left it; see `Lithology` for the law.
+        Each column keeps its thickness of grains, and the bottom of the section stays where it is. Rock never becomes
+        looser than its deepest burial so far left it; see `Lithology` for the law.
 
         Parameters
         ----------
@@ -328,9 +331,9 @@ class Restoration:
         age: float | None = None,
         progress: Progress | None = None,
     ) -> "Restoration":
-        """Let the crust rise, or sink, under what the steps just before took away or put back.
+        """Let the crust rise, or sink, under what the steps since the last such step took away or put back.
 
-        These are the last steps that strip, unerode or decompact; the load is the change of the weight of the rock, the
+        The load is the change, since before the first of them that strips or unerodes, of the weight of the rock, the
         water in its pores, and the water above it. Columns move up and down as wholes.
 
         Parameters
@@ -357,9 +360,10 @@ class Restoration:
         Cancelled
         """
         validation.checked_kind(model, Isostasy, "model")
-        count = len(self.stages)
-        while count and self.stages[count - 1].kind in (STRIP, UNERODE, DECOMPACT):
-            count -= 1
+        kinds = [stage.kind for stage in self.stages]
+        last = max((index for index, kind in enumerate(kinds) if kind == ISOSTASY), default=-1)
+        changes = (index for index, kind in enumerate(kinds) if kind in (STRIP, UNERODE) and index > last)
+        count = next(changes, len(kinds))
         states = (replace(self, stages=self.stages[:count]), self)
         before, after = (state.stratified(stratigraphy, interpretation) for state in states)
         stage = isostasy_stage(self.domain, model, before, after, beyond, progress)

@@ -21,6 +21,7 @@ MOST, LEAST = 20.0, 3.0  # traces by which a piece is extended; traces and sampl
 STEEP = 2.0  # times as much counts what an extension falls or rises
 BASELINE = 10.0  # traces at the end of a piece, whose median direction an extension takes
 EXTENSION = 0.2  # of a piece's length, where the size of traces is not known
+TOUCHING = 0.1  # of a trace or a sample: a horizon that ends so close to the end of a fault meets it there
 JOINED = 3.0  # traces and samples: ends of two pieces that lie closer become one point
 
 
@@ -211,6 +212,14 @@ def nearest_fault_ahead(
         for fault in _within_reach(faults, Point(tip), 2 * (reach + touch))
         for point in [*_common_points(ray.intersection(faults[fault])), *_touching_point(faults[fault], tip, touch)]
     ]
+    if not hits and cell is not None:  # a fault that ends beside the tip, as along the border that a step left
+        touch = TOUCHING * float(np.min(cell))
+        near = [
+            (fault, point)
+            for fault in _within_reach(faults, Point(tip), touch)
+            for point in _touching_point(faults[fault], tip, touch)
+        ]
+        hits = [(0.0, fault, point.coords[0]) for fault, point in near]
     if not hits:
         return None
     first, *_ = min(hits)
@@ -275,7 +284,10 @@ def _common_points(geometry: BaseGeometry) -> list[Point]:
 
 
 def join_pieces(
-    pieces: Sequence[LineString], cell: np.ndarray, apart: Container[tuple[int, int]] = ()
+    pieces: Sequence[LineString],
+    cell: np.ndarray,
+    apart: Container[tuple[int, int]] = (),
+    reach: float = JOINED,
 ) -> list[LineString]:
     """Join pieces of a horizon whose ends nearly meet, as across a restored fault.
 
@@ -286,6 +298,8 @@ def join_pieces(
         Distance between two traces and between two samples.
     apart : set of (index, end)
         Ends (0 or -1) of pieces that stay as they are.
+    reach : float
+        Distance of ends that are joined, in traces and samples.
     """
     if not pieces:
         return []
@@ -299,7 +313,7 @@ def join_pieces(
     )
     joined: set[tuple[int, int]] = set()
     for distance, first, second in pairs:
-        if distance < JOINED and not {first, second} & joined:
+        if distance < reach and not {first, second} & joined:
             middle = (points[first[0]][first[1]] + points[second[0]][second[1]]) / 2
             points[first[0]][first[1]] = points[second[0]][second[1]] = middle
             joined |= {first, second}

@@ -1,6 +1,6 @@
 """One stage of a restoration: a mesh before and after it, and how it carries points and lines along."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -24,18 +24,21 @@ from seiswidgets.geology.findings import Finding, worst_first
 from seiswidgets.geology.motion import observe_motion
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.report import BodyReport, Observations, Report
-from seiswidgets.geology.segments import horizon_segments, join_pieces
+from seiswidgets.geology.segments import JOINED, horizon_segments, join_pieces
 from seiswidgets.geology.shared_stretches import follow, split_into_stretches
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.weights import Weights
 
-STRIP, UNERODE, DECOMPACT = "strip", "unerode", "decompact"
+STRIP, UNERODE, DECOMPACT, ISOSTASY = "strip", "unerode", "decompact", "isostasy"
+SAGITTA = 0.025  # of the mesh spacing: farther from the nearest edge, a point of a fault lies in the rock
 SIDEWAYS, INWARDS = 1e-3, 0.02  # of the mesh spacing, from a line on a fault to the triangles that carry it
 PERCENTS = (1, 50, 99)
 FINE, LEAST_POINTS = 0.25, 64  # a line is carried at points a quarter of the spacing apart, and at least this many
 WITHIN = np.vstack([np.full(3, 1 / 3), 0.1 + 0.7 * np.eye(3), 0.45 - 0.35 * np.eye(3)])  # points in a triangle
 COMPASS = [np.array([np.sin(turn), np.cos(turn)]) for turn in np.pi / 4 * np.arange(8)]
 TOUCHING = 1e-6  # of the mesh spacing, from a line to a border that it made
+REMEMBERED = 200  # picks whose lines a stage keeps
+MEETING = 0.3  # traces and samples: ends of pieces that meet after a step of a sequence
 CLOSED = 0.02  # of the mesh spacing: half the width of gaps that are filled between two stages
 
 
@@ -119,6 +122,8 @@ class Stage:
     burial : array, shape (n,), optional
         Depth of burial that the porosity at each vertex stands for after the step, in metres; the deepest one, as far
         as it is known. None if the step leaves porosities as they are.
+    carried : dict
+        Lines of picks after this step, which the next steps start from.
     """
 
     kind: str
@@ -138,6 +143,7 @@ class Stage:
     drawn: tuple[Fault | Horizon, ...] = ()
     age: float | None = None
     burial: np.ndarray | None = None
+    carried: dict[Hashable, list[LineString]] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
         self.vertices.setflags(write=False)
@@ -206,6 +212,12 @@ class Stage:
             age=self.age,
             details=observations.details,
         )
+
+    def remember(self, key: Hashable, lines: list[LineString]) -> None:
+        """Keep the lines of a pick after the step, for the next stages; the oldest are forgotten."""
+        self.carried[key] = lines
+        if len(self.carried) > REMEMBERED:
+            self.carried.pop(next(iter(self.carried)), None)
 
     def with_notes(self, *notes: Finding) -> "Stage":
         """The stage with findings about its picks that were made before solving."""
@@ -289,7 +301,10 @@ class Stage:
         return deformation.principal_stretches(self.mesh, self.vertices)
 
     def carried_horizon(self, pieces: Sequence[LineString]) -> list[LineString]:
-        """The pieces of a horizon after the step, joined where they now meet across its faults."""
+        """The pieces of a horizon after the step, joined where they now meet across its faults.
+
+        In a sequence only those that meet exactly: older horizons keep what is left of their offset.
+        """
         segments = horizon_segments(pieces, (*self.faults, *self.boundaries), self.domain.cell)
         carried = [(line, segment.ends) for segment in segments if (line := self._carry_line(segment.line, 0.0))]
         at_boundary = {
@@ -298,7 +313,8 @@ class Stage:
             for which, end in zip((0, -1), ends, strict=True)
             if end and end.fault >= len(self.faults)
         }
-        return join_pieces([line for line, _ in carried], self.domain.cell, at_boundary)
+        reach = JOINED if self.age is None else MEETING
+        return join_pieces([line for line, _ in carried], self.domain.cell, at_boundary, reach)
 
     def carried_fault(self, line: LineString) -> list[LineString]:
         """A fault after the step, in order, split where another fault crosses it.
@@ -313,7 +329,7 @@ class Stage:
         parts = split_into_stretches(line, self.faults, self.domain.sample)
         own = [part for part, shared in parts if not shared]
         ways = [
-            self._carry(lines, side * SIDEWAYS * self.spacing)
+            self._carry(lines, side * self._sideways(line))
             for lines in ([part for part, _ in parts], own)
             for side in ((1, -1) if len(parts) > 1 else (1,))
             if lines
@@ -346,6 +362,13 @@ class Stage:
     def _carry(self, lines: Iterable[LineString], sideways: float) -> list[LineString]:
         carried = [self._carry_line(line, sideways) for line in lines]
         return [line for line in carried if line is not None]
+
+    def _sideways(self, line: LineString) -> float:
+        """Distance from a fault that is surely in the triangles of one side: they have chords where it is curved."""
+        points = shapely.points(shapely.get_coordinates(line))
+        _, distances = self._border.query_nearest(points, all_matches=False, return_distance=True)
+        close = distances[distances < SAGITTA * self.spacing]
+        return float(max(SIDEWAYS * self.spacing, 2 * np.max(close, initial=0.0)))
 
     def _kept(self, line: LineString) -> list[LineString]:
         """The parts of a fault that lie in the rock that remains, or along its border, which follows faults exactly."""

@@ -123,14 +123,14 @@ class Stratigraphy:
 
 def checked_profile(name: str, value: object) -> float | Profile:
     """Validate a number, or points (x, depth) in the order of their x."""
-    if isinstance(value, int | float | np.number):
+    if isinstance(value, int | float | np.number | str):
         return validation.finite_number(name, value)
     try:
         points = np.array(value, float).reshape(-1, 2)
     except (TypeError, ValueError):
         points = np.full((1, 2), np.nan)
     if not len(points) or not np.isfinite(points).all():
-        raise SettingError(f"{name} must be a number or points (x, depth) of finite numbers, but is {value!r}")
+        raise SettingError(f"{name} must be a finite number, or points (x, depth) of finite numbers, but is {value!r}")
     if (np.diff(points[:, 0]) <= 0).any():
         raise SettingError(f"the points of {name} must be in the order of their x, each with an x of its own")
     return tuple((float(x), float(depth)) for x, depth in points)

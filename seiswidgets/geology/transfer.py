@@ -1,6 +1,6 @@
 """Carry points, picks, amplitudes and area ratios of a section through the stages of a restoration."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
 from itertools import count
 
@@ -19,6 +19,8 @@ from seiswidgets.geology.fault_lines import merge_close_points, resample_fine
 from seiswidgets.geology.picks import Fault, Horizon
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stage import Stage
+
+Lines = list[LineString]
 
 OUTSIDE = "outside"  # kind of the errors about picks that are not in the rock
 
@@ -63,8 +65,20 @@ def _carried_parts(
     if domain is not None:
         parts = [resample_fine(merge_close_points(points, domain.spacing), domain) for points in parts]
     lines = [fault_curve(points, original.dz * float(original.metres[1])) for points in parts]
-    for stage in stages:
-        lines = [moved for line in lines for moved in stage.carried_fault(line)]
+    key = fault, domain is not None
+    return _through(
+        stages, key, lines, lambda stage, lines: [part for line in lines for part in stage.carried_fault(line)]
+    )
+
+
+def _through(stages: Sequence[Stage], key: Hashable, lines: Lines, carry: Callable[[Stage, Lines], Lines]) -> Lines:
+    """Carry lines through stages, each of which remembers what it has carried."""
+    known = next((count for count in range(len(stages), 0, -1) if key in stages[count - 1].carried), 0)
+    if known:
+        lines = stages[known - 1].carried[key]
+    for stage in stages[known:]:
+        lines = carry(stage, lines)
+        stage.remember(key, lines)
     return lines
 
 
@@ -79,9 +93,7 @@ def carried_horizon(
     lines = [LineString(points) for piece in pieces for points in clip_line(original, piece)]
     if not lines:
         raise _outside(original, f"horizon {horizon.name!r}", horizon)
-    for stage in stages:
-        lines = stage.carried_horizon(lines)
-    return lines
+    return _through(stages, (horizon, flawless), lines, lambda stage, lines: stage.carried_horizon(lines))
 
 
 def carried_body(original: Section, stages: Sequence[Stage], body: Body) -> list[LineString]:

@@ -20,6 +20,8 @@ from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.stratigraphy import Profile, profile_at
 from seiswidgets.geology.surfaces import surface_line
 
+FLATTENINGS = LENGTH, VERTICAL_SHEAR = "length", "vertical shear"
+
 
 def shear_flat_stage(
     domain: RestorationDomain,

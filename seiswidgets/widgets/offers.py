@@ -6,7 +6,7 @@ from functools import partial
 
 from seiswidgets.geology.beyond import KEEP, LEVEL, TREND
 from seiswidgets.geology.findings import Finding
-from seiswidgets.geology.plan import FLATTEN
+from seiswidgets.geology.steps import FLATTEN
 from seiswidgets.widgets.workspace import Workspace
 
 BEYOND = {  # label and tooltip of each choice

@@ -9,6 +9,7 @@ import pytest
 import seiswidgets as sw
 from seiswidgets.core.mesh import triangle_areas
 from seiswidgets.geology.decompaction import ColumnCompaction
+from seiswidgets.geology.plan import RestorationJob
 from tests.geology.answers import random_points
 
 
@@ -140,3 +141,75 @@ def solid_area(rock, stratigraphy, stage, vertices, burial):
     rocks = [layer.rock for layer in stratigraphy.layers]
     porosity = [rocks[index].porosity(depths).mean() for index, depths in zip(layer, middles, strict=True)]
     return float(np.sum(triangle_areas(vertices, triangles) * (1 - np.array(porosity))))
+
+
+def test_a_sequence_finds_which_fault_moved_when_and_undoes_it():
+    case = sw.synthetic.half_graben(dx=25, dz=10)
+    activity = sw.FaultActivity.of(case.stratigraphy, case.interpretation)
+    assert [activity.moved(top) for top in case.stratigraphy.tops] == [(), *[("F1",)] * 4]
+    assert "F1     H5 (25 Ma)" in str(activity)
+    plan = sw.Plan.sequential(case.stratigraphy, case.interpretation, decompact=False, fixed=case.fixed)
+    assert [step.kind for step in plan.steps] == ["strip", "flatten", *["strip", "unfault", "flatten"] * 4]
+    seen = set()
+    restored = plan.restore(case.section, case.interpretation, progress=lambda step, *_: seen.add(step))
+    assert seen == set(range(len(plan.steps)))
+    assert not restored.skipped
+    points = random_points(case.section, 1000)
+    for index, stage in enumerate(restored.stages, 1):
+        if stage.kind == "flatten":
+            error = restored.at(index).to_restored(points) - case.at_age(points, stage.age)
+            assert np.nanmax(np.hypot(*error.T)) < 0.01 * 100
+    points = points[np.isfinite(restored.to_restored(points)).all(axis=1)]
+    assert np.allclose(restored.to_original(restored.to_restored(points)), points, atol=1e-6 * 4000)
+
+
+def test_a_sequence_can_be_told_which_fault_moved_when():
+    case = sw.synthetic.growth_fault(dx=25, dz=10)
+    plan = sw.Plan.sequential(case.stratigraphy, case.interpretation, activity={"H3": ["F1"]}, isostasy=sw.Isostasy())
+    assert [step.age for step in plan.steps if step.kind == "unfault"] == [15]
+    assert {step.kind for step in plan.steps} == {"strip", "unfault", "decompact", "isostasy", "flatten"}
+
+
+def test_a_sequence_with_compaction_and_isostasy_settles_without_flips():
+    case = sw.synthetic.growth_fault(dx=25, dz=10)
+    crust = sw.Isostasy(elastic_thickness=5e3)
+    plan = sw.Plan.sequential(case.stratigraphy, case.interpretation, isostasy=crust, fixed=case.fixed)
+    restored = replace(plan, spacing=80.0).restore(case.section, case.interpretation)
+    assert not restored.skipped
+    assert all(stage.report.flipped == 0 for stage in restored.stages)
+    assert restored.settled
+    assert [stage.age for stage in restored.stages] == sorted(stage.age for stage in restored.stages)
+    (top,) = restored.carried(horizon(case, "H4"))
+    assert np.abs(top[:, 1]).max() < 0.5 * case.section.dz
+    assert {finding.severity for finding in sw.check(case.section, case.interpretation, plan)} <= {"note"}
+
+
+def test_cancelling_a_sequence_stops_it():
+    case = sw.synthetic.growth_fault(dx=25, dz=10)
+    plan = sw.Plan.sequential(case.stratigraphy, case.interpretation)
+    with pytest.raises(sw.Cancelled, match="cancelled"):
+        plan.restore(case.section, case.interpretation, progress=lambda step, *_: step < 2)
+
+
+def test_a_changed_lithology_keeps_the_steps_before_it():
+    case = sw.synthetic.growth_fault(dx=25, dz=10)
+    plan = sw.Plan.sequential(case.stratigraphy, case.interpretation)
+    job = RestorationJob(case.section, case.interpretation, replace(plan, spacing=120.0))
+    first = job.restored()
+    layers = [replace(layer, lithology="chalk") for layer in case.stratigraphy.layers]
+    changed = replace(job, plan=replace(job.plan, stratigraphy=sw.Stratigraphy(layers)))
+    second = changed.restored((job, first))
+    assert second.stages[0] is first.stages[0]
+    assert second.stages[1] is not first.stages[1]
+
+
+def test_crossing_tops_and_missing_ones_are_refused():
+    case = sw.synthetic.growth_fault(dx=25, dz=10)
+    crossing = sw.Horizon([(0, 300), (4000, 800)], name="X")
+    picks = sw.Interpretation(case.interpretation.faults, [*case.interpretation.horizons, crossing])
+    start = sw.Restoration(case.section)
+    layers = sw.Stratigraphy([sw.Layer(None, 0), sw.Layer("X", 3), sw.Layer("H2", 9)])
+    with pytest.raises(sw.PickError, match="horizon 'H2' crosses horizon 'X' near"):
+        start.decompact(layers, picks)
+    with pytest.raises(sw.PickError, match="there is no horizon called 'X'"):
+        start.decompact(layers, case.interpretation)

@@ -463,7 +463,7 @@ def test_the_examples_in_the_docs_open(tmp_path, case):
         (lambda d: d["picks"].update(fixed=[1, 2, 3]), "picks.fixed must be a point .* but is a list of 3"),
         (
             lambda d: d["plan"].update(steps=[{"kind": "fold"}]),
-            r"plan.steps\[0\]: a step must be 'unfault' or 'flatten'",
+            r"plan.steps\[0\]: a step must be one of 'unfault', 'flatten'",
         ),
         (lambda d: d["plan"]["steps"][0].update(picks="F1"), r"plan.steps\[0\].picks must be a list"),
         (lambda d: d["plan"]["weights"].update(edge=-1), "plan.weights: weight edge must be a number of 0 or more"),
@@ -556,5 +556,44 @@ def test_all_hypotheses_are_kept_in_their_order(case, session, saved):
 )
 def test_damaged_hypotheses_are_refused_with_their_location(saved, hypotheses, message):
     path = changed(saved, lambda document: document.update(hypotheses=hypotheses))
+    with pytest.raises(sw.DataError, match=message):
+        sw.open_session(path)
+
+
+def test_a_session_keeps_a_sequence(tmp_path):
+    case = sw.synthetic.growth_fault(dx=50, dz=20)
+    crust = sw.Isostasy(elastic_thickness=5e3, sea_level=None)
+    layers = sw.Stratigraphy(
+        [
+            sw.Layer(None, 0, sw.Lithology(0.5, 0.4, 2600.0, "mudstone", "core 7")),
+            sw.Layer("H1", 5, "sand", water_depth=[(0, 20), (4000, 80)]),
+            sw.Layer("H2", 9, "salt", water_depth=100),
+        ]
+    )
+    plan = sw.Plan.sequential(layers, case.interpretation, isostasy=crust, unfold="length")
+    plan = replace(plan, load_beyond="zero", steps=(*plan.steps, sw.Step("unerode", datum=[(0, -50), (4000, -80)])))
+    source = sw.SectionSource("synthetic", "growth_fault", {"dx": 50, "dz": 20})
+    sw.Session.of(case.section, source, case.interpretation, plan=plan).save(tmp_path / "basin.json")
+    assert sw.open_session(tmp_path / "basin.json").plan == plan
+
+
+@pytest.mark.parametrize(
+    ("layer", "message"),
+    [
+        ({"age": 3}, "lithology"),
+        ({"age": -3, "lithology": {"phi0": 0.5, "c": 0.4, "grain_density": 2600}}, "age of a top must be 0 Ma or more"),
+        ({"age": 3, "lithology": {"phi0": 5, "c": 0.4, "grain_density": 2600}}, "porosity phi0"),
+    ],
+)
+def test_a_damaged_stratigraphy_is_refused_in_words(tmp_path, layer, message):
+    document = {
+        "format": "seiswidgets session",
+        "version": 2,
+        "section": {"source": {"kind": "synthetic", "name": "growth_fault"}},
+        "picks": {},
+        "plan": {"stratigraphy": {"layers": [layer]}},
+    }
+    path = tmp_path / "damaged.json"
+    path.write_text(json.dumps(document))
     with pytest.raises(sw.DataError, match=message):
         sw.open_session(path)

@@ -3,7 +3,7 @@ import pytest
 from ipywidgets import Button
 
 import seiswidgets as sw
-from seiswidgets.geology.plan import FLATTEN, UNFAULT
+from seiswidgets.geology.steps import FLATTEN, UNFAULT
 
 EVIL = "<img src=x onerror=alert(1)>"
 F1, F2 = (sw.Fault([[x, 0], [x, 9]], name) for x, name in ((1, "F1"), (2, EVIL)))

@@ -12,10 +12,15 @@ from seiswidgets import __version__
 from seiswidgets.errors import DataError, SeiswidgetsError, Text
 from seiswidgets.geology.beyond import FREE
 from seiswidgets.geology.bodies import SALT
+from seiswidgets.geology.flexure import Isostasy
 from seiswidgets.geology.hypothesis import FIRST_NAME
+from seiswidgets.geology.lithology import Lithology
 from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends
-from seiswidgets.geology.plan import Plan, Step
+from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.slip_profile import SlipProfile
+from seiswidgets.geology.steps import Step
+from seiswidgets.geology.stratigraphy import Layer, Stratigraphy
+from seiswidgets.geology.vertical_shear import LENGTH
 from seiswidgets.geology.weights import Weights
 from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
 from seiswidgets.io.session.saved_picks import SavedHypothesis, SavedPick
@@ -297,7 +302,31 @@ def _plan(entry: Entry) -> Plan:
         weighting=entry.optional("weighting", Entry.text, None),
         spacing=entry.optional("spacing", Entry.number, None),
         max_iterations=entry.optional("max_iterations", _count, None),
+        stratigraphy=entry.optional("stratigraphy", _stratigraphy, None),
+        isostasy=entry.optional("isostasy", _isostasy, None),
+        load_beyond=entry.optional("load_beyond", Entry.text, defaults.load_beyond),
     )
+
+
+def _stratigraphy(entry: Entry) -> Stratigraphy:
+    return _build(entry, Stratigraphy, [_layer(layer) for layer in entry["layers"].items()])
+
+
+def _layer(entry: Entry) -> Layer:
+    rock = entry["lithology"]
+    phi0, c, density = (rock[name].number() for name in ("phi0", "c", "grain_density"))
+    name, source = (rock.optional(text, Entry.text, "") for text in ("name", "source"))
+    lithology = _build(rock, Lithology, phi0, c, density, name, source)
+    top, depth = entry.optional("top", Entry.text, None), entry.optional("water_depth", _level, 0.0)
+    return _build(entry, Layer, top, entry["age"].number(), lithology, depth)
+
+
+def _isostasy(entry: Entry) -> Isostasy:
+    numbers = {name: entry[name].number() for name in entry.members() if name != "sea_level"}
+    known = {field.name for field in fields(Isostasy)}
+    if not numbers.keys() <= known:
+        raise DataError(f"{entry.full_location} may hold only {', '.join(sorted(known))}")
+    return _build(entry, Isostasy, sea_level=entry.optional("sea_level", Entry.number, None), **numbers)
 
 
 def _with_holds(plan: Plan, picks: Entry) -> Plan:
@@ -305,11 +334,11 @@ def _with_holds(plan: Plan, picks: Entry) -> Plan:
         plan,
         fixed=picks.optional("fixed", Entry.point, None),
         pins=picks.optional("pins", Entry.points, ()),
-        regional=picks.optional("regional", _regional, None),
+        regional=picks.optional("regional", _level, None),
     )
 
 
-def _regional(entry: Entry) -> float | Points:
+def _level(entry: Entry) -> float | Points:
     return entry.points() if isinstance(entry.value, list) else entry.number()
 
 
@@ -326,9 +355,12 @@ def _steps(entry: Entry) -> tuple[Step, ...]:
             Step,
             step["kind"].text(),
             step.optional("picks", lambda picks: tuple(name.text() for name in picks.items()), ()),
-            step.optional("datum", Entry.number, None),
+            step.optional("datum", _level, None),
             step.optional("on", Entry.flag, True),
             step.optional("slip", _slip, {}),
+            step.optional("horizons", lambda names: tuple(name.text() for name in names.items()), ()),
+            step.optional("by", Entry.text, LENGTH),
+            step.optional("age", Entry.number, None),
             step.optional("beyond", Entry.text, FREE),
         )
         for step in entry.items()

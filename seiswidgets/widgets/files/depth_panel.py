@@ -12,6 +12,7 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import HORIZON, Horizon
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.stratigraphy import Profile
 from seiswidgets.geology.validation import finite_number
 from seiswidgets.geology.velocity import ConstantVelocity, LayerCake, LinearVelocity, TimeDepthTable, Velocity
 from seiswidgets.interaction.alternatives import changed_alike
@@ -158,10 +159,13 @@ def _converted(plan: Plan, convert: Callable[[ArrayLike], np.ndarray], x: float)
     def points(rows: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
         return tuple((float(x), float(z)) for x, z in convert(rows)) if rows else ()
 
+    def datum(value: float | Profile | None) -> float | Profile | None:
+        return points(value) if isinstance(value, tuple) else level(value)
+
     regional = plan.regional
     return replace(
         plan,
-        steps=tuple(replace(step, datum=level(step.datum)) for step in plan.steps),
+        steps=tuple(replace(step, datum=datum(step.datum)) for step in plan.steps),
         fixed=points([plan.fixed])[0] if plan.fixed else None,
         pins=points(plan.pins),
         regional=level(regional) if isinstance(regional, float | None) else points(regional),

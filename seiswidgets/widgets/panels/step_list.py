@@ -14,7 +14,8 @@ from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.beyond import FREE, KEEP, LEVEL, TREND
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
-from seiswidgets.geology.plan import FLATTEN, UNFAULT, Plan, Step
+from seiswidgets.geology.plan import Plan
+from seiswidgets.geology.steps import FLATTEN, UNFAULT, Step
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.key_guard import KeyGuard
 
@@ -94,7 +95,7 @@ class StepRow(VBox):
             self._change(datum=datum)
 
     def _datum_text(self) -> str:
-        return "The mean level" if self.step.datum is None else f"{_exact(self.step.datum)} {self.z_unit}"
+        return "The mean level" if self.step.datum is None else f"{_datum_value(self.step)} {self.z_unit}"
 
     def _show_error(self, text: str) -> None:
         self.error.value = ALERT.format(escape(text)) if text else ""
@@ -108,7 +109,7 @@ class StepRow(VBox):
         self.datum.layout.display = self.beyond.layout.display = "" if self.step.kind == FLATTEN else "none"
         self.beyond.value = self.step.beyond
         if change.name == "step" and change.new != change.old:  # else a datum may be half typed
-            self.datum.value = "" if self.step.datum is None else _exact(self.step.datum)
+            self.datum.value = _datum_value(self.step)
             self._show_error("")
 
     def _offer_picks(self) -> None:
@@ -233,6 +234,11 @@ class StepList(WithParts, VBox):
 
 def _label(picks: Iterable[str], names: list[str]) -> str:
     return ", ".join(name if name in names else f"missing: {name}" for name in picks)
+
+
+def _datum_value(step: Step) -> str:
+    """Text of a step's datum; empty for none, and for a profile."""
+    return "" if step.datum is None or isinstance(step.datum, tuple) else _exact(step.datum)
 
 
 def _exact(value: float) -> str:
