@@ -8,6 +8,8 @@ import shutil
 import numpy as np
 import pytest
 
+import seiswidgets as sw
+from tests.io.restored import restored
 from tests.widgets.appscreen import EMPTY, PIXELS, SHOWN
 from tests.widgets.browser import ASK, EXECUTE, READY, awaited, settled
 from tests.widgets.firefox import Firefox
@@ -120,4 +122,29 @@ def test_a_walk(lab, firefox):
     walk.load()
     assert walk.pictures() == zoomed
     assert walk.ask("[len(app.interpretation.faults), len(app.restoration.stages)]") == [1, 2]
+    assert firefox.errors == []
+
+
+TIME = """(value) => {
+  const slider = document.querySelector("input[type=range]");
+  slider.value = value;
+  slider.dispatchEvent(new Event("input"));
+}"""
+
+
+def test_a_handout_works_from_disk(firefox, tmp_path):
+    path = tmp_path / "handout.html"
+    sw.save_html(restored(), path)
+    firefox.goto(path.as_uri())
+    labels = "() => [...document.querySelectorAll('#restored .axes .label')].map((label) => label.textContent)"
+    whole = awaited(lambda: firefox.evaluate(labels), lambda found: len(found) > 3, "axes")
+    shown = settled(lambda: firefox.evaluate(PICTURES))
+    assert len(shown) == 2
+    assert shown[0] != shown[1]
+    x, y = firefox.evaluate(BOX, 0)
+    firefox.wheel(x + 100, y + 100, -300)
+    zoomed = awaited(lambda: firefox.evaluate(labels), lambda found: found != whole, "other labels")
+    assert zoomed
+    firefox.evaluate(TIME, 0)
+    awaited(lambda: firefox.evaluate(PICTURES), lambda found: found[0] == found[1], "the present day in both panes")
     assert firefox.errors == []

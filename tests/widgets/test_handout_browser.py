@@ -121,7 +121,6 @@ def test_time_moves_the_rock_and_the_picks_and_play_ends_at_the_end(handout):
     slider.press("End")
     slider.press("PageDown")
     page.page.get_by_role("button", name="Play").click()
-    page.page.get_by_role("button", name="Pause").wait_for()
     expect(page.page.locator("#time output")).to_have_text("restored")
     awaited(lambda: page.pixels("restored"), lambda found: found == end, "the fine picture of the end")
     assert line.get_attribute("d") == restored_line

@@ -2672,9 +2672,11 @@ var Timeline = class {
     this.frame = this.end;
     this.isRunning = false;
     this.playButton = element("button", { type: "button", class: "play" });
-    const range = { type: "range", min: "0", max: String(this.end), step: "1", "aria-label": "Time" };
+    const range = { type: "range", min: "0", max: String(this.end), step: "1", list: "scenes", "aria-label": "Time" };
     this.slider = /** @type {HTMLInputElement} */
     element("input", range);
+    const ticks = element("datalist", { id: "scenes" });
+    ticks.append(...scenes.map(({ count }) => element("option", { value: String(FRAMES * count) })));
     this.moment = element("output", {});
     const stops = element("div", {});
     this.strip = new StageStrip(stops, ({ count }) => this.stopAt(FRAMES * count));
@@ -2682,7 +2684,7 @@ var Timeline = class {
     this.playButton.addEventListener("click", () => this.toggle());
     this.slider.addEventListener("input", () => this.stopAt(this.slider.valueAsNumber));
     const track = element("div", { class: "track" });
-    track.append(this.slider, stops);
+    track.append(this.slider, ticks, stops);
     el.append(this.playButton, track, this.moment);
     this.draw();
   }
