@@ -19,10 +19,14 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("Ctrl+Z; Ctrl+Y, Ctrl+Shift+Z", "undo, a finished line by its last edits; redo. Anywhere in the app"),
     ),
     "Whole lines and pieces, in the mode Move, or with Alt in the others": (
-        ("Drag a line", "moves the piece, or all that are selected; with Ctrl the whole line, all its pieces"),
+        (
+            "Drag a line",
+            "moves the piece, or all that are selected; with Ctrl the whole line. Horizons go on ending at faults",
+        ),
         (
             "Drag a cut-off",
-            "slides its piece along the fault: the cut-off stays on the fault, and the rest moves with it",
+            "slides its piece along the fault: the cut-off stays on the fault, and the rest moves with it; if it is "
+            "selected, so do the others that are selected and end there",
         ),
         ("Shift+click; drag a rectangle", "select several; Delete deletes them. Shift+click works in Look, too"),
         ("Arrows", "move the selection by one trace or sample, with Shift by ten"),

@@ -49,16 +49,18 @@ def fit_ends(points: np.ndarray, before: ArrayLike, walls: Sequence[ArrayLike], 
     An end is trimmed by less than half of the line, and extended as far as a restoration would, without a new vertex.
     """
     for which in ENDS:
-        tip = Point(section.to_rock(np.asarray(before)[which]))
         for wall in walls:
-            line = LineString(section.to_rock(wall))
-            if len(points) > 1 and line.distance(tip) <= AT_WALL * float(
-                min(section.metres * (section.dx, section.dz))
-            ):
-                points = _trimmed(points, which, line, section)
+            if len(points) > 1 and ends_at(before, wall, section, [which]):
+                points = _trimmed(points, which, LineString(section.to_rock(wall)), section)
                 extended, reached = extend_end(points, which, [wall], section)
                 points = points if reached is None else np.delete(extended, 1 if which == 0 else -2, axis=0)
     return points
+
+
+def ends_at(points: ArrayLike, wall: ArrayLike, section: Section, ends: Sequence[int] = ENDS) -> bool:
+    """Return whether one of the ends of a line lies at a wall."""
+    line, near = LineString(section.to_rock(wall)), AT_WALL * float(min(section.metres * (section.dx, section.dz)))
+    return any(line.distance(Point(section.to_rock(np.asarray(points)[which]))) <= near for which in ends)
 
 
 def _trimmed(points: np.ndarray, which: int, wall: LineString, section: Section) -> np.ndarray:

@@ -14,18 +14,25 @@ from seiswidgets.interaction.cutoff_handles import CutOffHandle, cutoff_handles,
 from seiswidgets.interaction.drawing import Drawing, PickSelection
 from seiswidgets.interaction.editor_state import Drag, EditorState, Tools
 from seiswidgets.interaction.gestures import Move, Press, Release
+from seiswidgets.interaction.piece_ends import ends_at
 from seiswidgets.interaction.pieces import delete_pieces, slide_to, transform_pieces
 from seiswidgets.interaction.projection import side_of
 from seiswidgets.interaction.sliding import slide_piece
 
 
 def grab_cutoff_piece(state: EditorState, event: Press, tools: Tools, handle: CutOffHandle) -> EditorState:
-    """Grab the piece that ends at a cut-off, to slide it along the fault."""
-    base, target = split_at_cutoff(state.drawing, tools.viewport.section, handle)
+    """Grab the piece that ends at a cut-off, to slide it along the fault, with those selected that end there too."""
+    section = tools.viewport.section
+    base, target = split_at_cutoff(state.drawing, section, handle)
     piece, pick = replace(target, vertex=None), PickSelection(HORIZON, handle.horizon)
     is_split = len(base.pick(HORIZON, handle.horizon).pieces) != len(state.drawing.pick(HORIZON, handle.horizon).pieces)
-    drag = _drag(state, event, piece, base, (piece,), f"slide {handle.horizon} along {handle.fault}")
-    return state.change(drag=replace(drag, fault=handle.fault), selection=pick if is_split else piece)
+    chosen = state.chosen_pieces if not is_split and piece in state.chosen_pieces else ()
+    wall = base.pick(FAULT, handle.fault).pieces[0]
+    along = [one for one in chosen if one.kind == HORIZON and one != piece and ends_at(base.line(one), wall, section)]
+    action = f"slide {name_pieces(base, [piece, *along]) if along else handle.horizon} along {handle.fault}"
+    drag = _drag(state, event, piece, base, (piece, *along), action)
+    state = state.change(selection=pick) if is_split else state.choose(drag.pieces)
+    return state.change(drag=replace(drag, fault=handle.fault))
 
 
 def grab_piece(state: EditorState, event: Press, target: PickSelection) -> EditorState:
@@ -60,8 +67,8 @@ def begin_rectangle(state: EditorState, event: Press) -> EditorState:
 def move_pieces(drag: Drag, event: Move | Release, tools: Tools) -> Drawing:
     """Move the grabbed pieces to the pointer, or slide the one that is grabbed at its cut-off."""
     section = tools.viewport.section
-    if drag.fault is not None and drag.target is not None:
-        return slide_to(drag.base, section, drag.target, drag.fault, event.point)
+    if drag.fault is not None:
+        return slide_to(drag.base, section, drag.pieces, drag.fault, event.point)
     shift = np.subtract(event.pixel, drag.pixel)
 
     def moved(target: PickSelection, points: Sequence[tuple[float, float]]) -> np.ndarray:

@@ -49,11 +49,11 @@ def transform_pieces(
     return drawing
 
 
-def slide_to(drawing: Drawing, section: Section, target: PickSelection, fault: str, point: Point) -> Drawing:
-    """Slide a piece along a fault until its cut-off lies at the point of the fault that is nearest to a point."""
-    line, piece = drawing.pick(FAULT, fault).pieces[0], drawing.line(target)
-    slip = slip_to(piece, line, point, section)
-    return transform_pieces(drawing, section, [target], lambda _, points: slide_piece(points, line, slip, section))
+def slide_to(drawing: Drawing, section: Section, targets: Sequence[PickSelection], fault: str, point: Point) -> Drawing:
+    """Slide pieces along a fault until the cut-off of the first lies at the point of it that is nearest to a point."""
+    line = drawing.pick(FAULT, fault).pieces[0]
+    slip = slip_to(drawing.line(targets[0]), line, point, section)
+    return transform_pieces(drawing, section, targets, lambda _, points: slide_piece(points, line, slip, section))
 
 
 def delete_pieces(drawing: Drawing, targets: Sequence[PickSelection]) -> Drawing:

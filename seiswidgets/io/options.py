@@ -127,8 +127,10 @@ class OpenOptions:
             )
         return self.keywords.get("z_unit") or "ms"
 
-    def axes(self, path: Path, shape: tuple[int, int]) -> dict[str, float]:
+    def axes(self, path: Path, shape: tuple[int, int], *other: str | Keyword) -> dict[str, float]:
         """Spacing and origin of a matrix or an image, by name, from ``extent`` or from ``dx`` and ``dz``.
+
+        ``other`` is a further way to give them, in the words of the error.
 
         Raises
         ------
@@ -147,6 +149,7 @@ class OpenOptions:
                 Keyword("dx"),
                 " and ",
                 Keyword("dz"),
+                *other,
             )
         return self.given(AXIS_OPTIONS)
 

@@ -95,6 +95,20 @@ def test_a_piece_slides_by_its_cutoff_which_stays_on_the_fault(drawn, horizon): 
     undo_is_named(drawn, f"slide {horizon} along F1", before)
 
 
+def test_selected_pieces_that_end_at_the_fault_slide_together(drawn):  # noqa: F811
+    lower = [(480.0, 420.0), (800.0, 440.0)]
+    horizons = [sw.Horizon(LEFT, RIGHT, name="H1"), sw.Horizon(lower, name="H2")]
+    drawn.load(sw.Interpretation([sw.Fault(FAULT, "F1")], horizons))
+    drawn.enter("move")
+    click(drawn, RIGHT[1])
+    click(drawn, lower[1], SHIFT)
+    drag(drawn, (471.0, 381.0), (481.0, 421.0))
+    np.testing.assert_allclose(pieces(drawn, "H1", "horizon")[1], moved(RIGHT, 10, 40), atol=2.0)
+    np.testing.assert_allclose(pieces(drawn, "H2", "horizon")[0], moved(lower, 10, 40), atol=2.0)
+    assert pieces(drawn, "H1", "horizon")[0] == tuple(LEFT)
+    assert drawn.history.next_undo.label == "slide 2 pieces along F1"
+
+
 def test_the_keyboard_selects_moves_slides_and_deletes_pieces(drawn):  # noqa: F811
     before = drawn.drawing
     keys(drawn, "m", "PageDown", "PageDown")

@@ -105,6 +105,7 @@ def test_a_session_opens_the_same_section_again(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
+        ({}, "or two points on each axis by calibration="),
         ({"calibration": {"x": clicks()["x"]}}, "two points"),
         ({"calibration": clicks() | {"y": 1}}, "two points"),
         ({"calibration": clicks() | {"x": [(1, 2), (3, 4)]}}, "two points"),

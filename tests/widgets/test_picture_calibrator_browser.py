@@ -3,6 +3,7 @@
 import numpy as np
 
 from tests.io.test_calibration import CROP, pixel_of, scan
+from tests.widgets.axe import serious
 
 TICKS = {"x1": (1000, 0), "x2": (5500, 0), "z1": (0, 200), "z2": (0, 1800)}
 
@@ -37,6 +38,7 @@ def test_a_scan_is_calibrated_and_cropped_by_mouse(open_app, tmp_path):
     screen.page.mouse.up()
     screen.until("len(opener.calibrator.choices()) == 2")
     screen.shoot("calibrated-scan")
+    assert serious(screen.page, ".seiswidgets-app") == []
     screen.page.get_by_role("button", name="Open section").click()
     screen.until("app.section.shape[0] < 300 and app.section.dx > 10")
     axes = screen.ask("[app.section.dx, app.section.dz, app.section.x0, app.section.z0]")

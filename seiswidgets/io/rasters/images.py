@@ -11,7 +11,7 @@ from typing import Protocol
 
 from PIL import Image
 
-from seiswidgets.errors import DataError, SeiswidgetsError
+from seiswidgets.errors import DataError, Keyword, SeiswidgetsError
 from seiswidgets.geology.section import Section
 from seiswidgets.io.document import shortened
 from seiswidgets.io.info import TIME_OR_DEPTH, SectionInfo
@@ -20,6 +20,7 @@ from seiswidgets.io.rasters.calibration import ROTATED, Calibration, Window, che
 from seiswidgets.io.rasters.raster import Raster
 
 MOST_PIXELS = 40_000_000
+BY_AXES = ", or two points on each axis by ", Keyword("calibration")
 TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 
 
@@ -76,7 +77,7 @@ def open_picture(path: Path, options: OpenOptions, _progress: Progress | None) -
     calibration = _calibration(path, options)
     with _picture(path) as picture:
         window = checked_window(options.keywords.get("crop"), picture.shape)
-        fields = {} if calibration else options.axes(path, _shape_of(window))
+        fields = {} if calibration else options.axes(path, _shape_of(window), *BY_AXES)
         amplitude = picture.raster().amplitude()
     if picture.pages > 1:
         message = f"{path} has {picture.pages} pages, of which only the first is read"
