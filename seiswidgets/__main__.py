@@ -5,6 +5,7 @@ import shutil
 import sys
 import traceback
 from pathlib import Path
+from typing import Any
 
 from seiswidgets import __version__
 from seiswidgets.errors import SeiswidgetsError, Text
@@ -69,6 +70,7 @@ def _parser() -> argparse.ArgumentParser:
     restore.add_argument("--handout", action="store_true", help="write a web page with both sections, too")
     _add_permissions(restore)
     _add_ensemble(commands)
+    _add_scan(commands)
     add_teaching_commands(commands)
     return parser
 
@@ -100,8 +102,29 @@ def _add_ensemble(commands: argparse._SubParsersAction) -> None:
         ensemble.add_argument(f"--{name}", type=float, default=default, metavar="NUMBER", help=meaning)
     ensemble.add_argument("--members", type=int, default=200, metavar="N", help="number of restorations (200)")
     ensemble.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (0)")
+    ensemble.add_argument(
+        "--match",
+        action="append",
+        default=[],
+        metavar="FAULT",
+        help="scan this fault, and draw its slip from the peaks",
+    )
     _add_workers(ensemble)
     _add_permissions(ensemble)
+
+
+def _add_scan(commands: argparse._SubParsersAction) -> None:
+    scan = commands.add_parser(
+        "scan",
+        help="find the slip along each fault of a session that makes its two sides match",
+        description="Scans each fault of a session: for which slip do its two sides match? Writes the curves and their "
+        "peaks as JSON, and prints the likeliest slips.",
+    )
+    scan.set_defaults(run=_scan)
+    scan.add_argument("session", type=Path, metavar="session.json", help="a saved session")
+    scan.add_argument("--out", type=Path, required=True, metavar="FILE.json", help="file for the results")
+    _add_workers(scan)
+    _add_permissions(scan)
 
 
 def _add_workers(command: argparse.ArgumentParser) -> None:
@@ -122,6 +145,7 @@ def _study(options: argparse.Namespace) -> int:
             Uncertainty(**{name.replace("-", "_"): vars(options)[name.replace("-", "_")] for name in DEVIATIONS}),
             options.members,
             options.seed,
+            matches=options.match,
             workers=options.workers,
             scheduler=options.scheduler,
             progress=lambda done, members: bar.fill(done / members, f"{done} of {members} members"),
@@ -178,6 +202,39 @@ def _findings(replay: Replay) -> list[str]:
         f"{finding.severity}: {finding.text.rendered(OPTIONS) if isinstance(finding.text, Text) else finding.text}"
         for finding in findings
     ]
+
+
+def _scan(options: argparse.Namespace) -> int:
+    """Scan the faults of a session; return the exit status."""
+    from seiswidgets.io.session.studies import scan_session  # which the other commands do not need
+
+    bar = ProgressBar(str(options.session))
+    try:
+        found = scan_session(
+            options.session,
+            options.out,
+            workers=options.workers,
+            scheduler=options.scheduler,
+            progress=lambda done, faults: bar.fill(done / faults, f"{done} of {faults} faults"),
+            allow_outside=options.allow_outside,
+            allow_changed=options.allow_changed,
+        )
+    except SeiswidgetsError as error:
+        bar.end(f"{options.session}: {error.text.rendered(OPTIONS)}")
+        return 1
+    bar.end(f"{options.session}: {len(found)} fault{'' if len(found) == 1 else 's'}, in {options.out}")
+    for fault in found:
+        sys.stdout.write(f"{_likeliest(fault)}\n")
+        sys.stdout.writelines(f"  {text}\n" for text in fault.get("findings", ()))
+    return 0
+
+
+def _likeliest(fault: dict[str, Any]) -> str:
+    """A line on the likeliest match of a fault."""
+    if "refused" in fault:
+        return f"{fault['fault']}: {fault['refused']}"
+    peak = fault["peaks"][0]
+    return f"{fault['fault']}: slip {peak['slip']:.1f} m, correlation {peak['correlation']:.2f}"
 
 
 class ProgressBar:

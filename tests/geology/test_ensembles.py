@@ -142,6 +142,14 @@ def test_each_member_takes_a_match_as_often_as_its_weight_says():
     assert ensemble.shares["matches"][ensemble.labels.index(("slip", "F1"))] == pytest.approx(1)
 
 
+def test_the_peaks_of_a_scan_are_matches():
+    case = planar_fault()
+    scan = sw.scan(case.section, case.interpretation.faults[0])
+    choices = sw.Uncertainty(matches={"F1": scan}).choices["F1"]
+    assert [profile for profile, _ in choices] == [peak.profile for peak in scan.peaks]
+    assert sum(weight for _, weight in choices) == pytest.approx(1)
+
+
 def test_depths_along_lines():
     lines = [np.array([(0.0, 10.0), (2.0, 20.0)]), np.array([(1.0, 5.0), (4.0, 5.0)])]
     np.testing.assert_allclose(depths_along(lines, np.array([0.0, 1, 3, 5])), [10, 10, 5, np.nan])

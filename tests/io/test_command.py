@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from seiswidgets import __main__ as command
 from seiswidgets.errors import Keyword, Text
 from seiswidgets.io.session import replay
 from seiswidgets.io.session.replay import output_names
+from tests.executors import InThisThread
 
 ROOT = Path(__file__).parents[2]
 PLAN = sw.Plan(spacing=90.0)
@@ -282,3 +284,20 @@ def test_a_scheduler_that_does_not_answer(quick, tmp_path):
     result = run("ensemble", quick, "--out", out, "--scheduler", "tcp://127.0.0.1:1", code=code)
     assert result.returncode == 1
     assert "no scheduler of Dask answers at tcp://127.0.0.1:1" in result.stderr
+
+
+def test_a_scan_of_a_session(quick, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("seiswidgets.io.session.studies.dask_executor", lambda address: nullcontext(InThisThread()))
+    out = tmp_path / "scan.json"
+    assert command.main(["scan", str(quick), "--out", str(out)]) == 0
+    case = sw.synthetic.faulted_fold()
+    expected = sw.scan(case.section, case.interpretation.faults[0]).peaks[0]
+    (fault,) = json.loads(out.read_text())["faults"]
+    assert fault["fault"] == "F1"
+    assert fault["peaks"][0]["slip"] == pytest.approx(expected.slip)
+    assert len(fault["slip"]) == len(fault["correlation"])
+    printed = capsys.readouterr()
+    assert printed.out == f"F1: slip {expected.slip:.1f} m, correlation {expected.correlation:.2f}\n"
+    assert printed.err == f"{quick}: 1 fault, in {out}\n"
+    assert command.main(["scan", str(quick), "--out", str(tmp_path / "scan.csv")]) == 1
+    assert "scan.csv must end in .json" in capsys.readouterr().err

@@ -191,7 +191,7 @@ def error_bar(percentiles: np.ndarray) -> str:
 
 def _percentiles(values: np.ndarray, percents: Sequence[float]) -> np.ndarray:
     known = values[np.isfinite(values)]
-    return np.percentile(known, percents) if len(known) else np.full(len(percents), np.nan)
+    return np.percentile(known, percents, method="weibull") if len(known) else np.full(len(percents), np.nan)
 
 
 def _mean(values: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 import shapely
@@ -15,6 +16,7 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.fault_lines import NEAR
 from seiswidgets.geology.hypothesis import Hypothesis, with_slip, with_velocity
 from seiswidgets.geology.picks import AUTO, EXTEND, Ends, Fault, Horizon, Interpretation, both_ends
+from seiswidgets.geology.scan import Scan
 from seiswidgets.geology.slip_profile import SlipProfile
 
 INPUTS = ("horizon", "fault", "dip", "velocity", "matches")
@@ -22,7 +24,7 @@ DETAIL = 3  # points of a perturbed line for each correlation length
 STEEPEST = 45.0  # degrees: the largest deviation of a dip
 
 Draw = dict[str, np.ndarray]  # independent standard normal numbers by input
-Choices = Mapping[str, Sequence[tuple[SlipProfile, float]]]
+Slips = Scan | Sequence[tuple[SlipProfile, float]]
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,9 @@ class Uncertainty:
         Of the dip of each fault, which turns about its middle, in degrees.
     velocity : float
         Of the velocity, as a share of it. In a section in depth, all depths grow with it.
-    matches : dict of str to list of (SlipProfile, weight)
-        Slips that are possible along a fault, by its name: each member takes one, as often as its weight says, in all
-        steps that unfault.
+    matches : dict of str to Scan, or to list of (SlipProfile, weight)
+        Slips that are possible along a fault, by its name, such as the peaks of its scan: each member takes one, as
+        often as its weight says, in all steps that unfault.
 
     Raises
     ------
@@ -58,7 +60,7 @@ class Uncertainty:
     correlation_length: float = 500.0
     dip: float = 0.0
     velocity: float = 0.0
-    matches: Choices = field(default_factory=dict, hash=False)
+    matches: Mapping[str, Slips] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         for name in ("horizon", "fault", "dip", "velocity", "correlation_length"):
@@ -70,12 +72,18 @@ class Uncertainty:
             raise SettingError("correlation_length must be above 0 m; a short one makes errors independent")
         if self.dip > STEEPEST:
             raise SettingError(f"dip must be at most {STEEPEST:g} degrees, but is {self.dip:g}")
-        checked = {name: _checked_choices(name, choices) for name, choices in dict(self.matches).items()}
-        object.__setattr__(self, "matches", checked)
+        object.__setattr__(self, "matches", {name: _checked_choices(name, one) for name, one in self.matches.items()})
+
+    @property
+    def choices(self) -> dict[str, tuple[tuple[SlipProfile, float], ...]]:
+        """The possible slips along each fault with their weights, which add up to 1."""
+        return cast(dict, self.matches)
 
 
-def _checked_choices(name: str, choices: Sequence[tuple[SlipProfile, float]]) -> tuple[tuple[SlipProfile, float], ...]:
+def _checked_choices(name: str, choices: Slips) -> tuple[tuple[SlipProfile, float], ...]:
     """Validate the matches of a fault; their weights are made to add up to 1."""
+    if isinstance(choices, Scan):
+        choices = [(peak.profile, peak.weight) for peak in choices.peaks]
     try:
         profiles, weights = zip(*choices, strict=True)
         shares = np.array([validation.finite_number("the weight of a match", weight) for weight in weights])
@@ -136,7 +144,7 @@ class Perturbation:
         horizons = [self._moved_horizon(pick, horizon) for pick in picks.horizons]
         faults = [self._moved_fault(pick, fault, next(turns)) for pick in picks.faults]
         moved = replace(self.drawn, interpretation=Interpretation(faults, horizons, picks.bodies))
-        chosen = {name: self.uncertainty.matches[name][k][0] for name, k in self._chosen(draw).items()}
+        chosen = {name: self.uncertainty.choices[name][k][0] for name, k in self._chosen(draw).items()}
         factor = float(np.exp(self.uncertainty.velocity * draw["velocity"][0]))
         return with_velocity(with_slip(moved, chosen), factor)
 
@@ -144,18 +152,18 @@ class Perturbation:
         """The numbers of a member that a regression can use: of a choice, 1 for what was chosen, 0 for the rest."""
         draw = self.draw(index)
         chosen = self._chosen(draw)
-        flags = [np.arange(1, len(one)) == chosen[name] for name, one in self.uncertainty.matches.items()]
+        flags = [np.arange(1, len(one)) == chosen[name] for name, one in self.uncertainty.choices.items()]
         return {**draw, "matches": np.concatenate([*flags, np.zeros(0)])}
 
     @property
     def likeliest(self) -> dict[str, SlipProfile]:
         """The match of each fault that has the largest weight."""
-        return {name: max(one, key=lambda pair: pair[1])[0] for name, one in self.uncertainty.matches.items()}
+        return {name: max(one, key=lambda pair: pair[1])[0] for name, one in self.uncertainty.choices.items()}
 
     def _chosen(self, draw: Draw) -> dict[str, int]:
         """Index of the match of each fault."""
         chosen = {}
-        for (name, choices), number in zip(self.uncertainty.matches.items(), draw["matches"], strict=True):
+        for (name, choices), number in zip(self.uncertainty.choices.items(), draw["matches"], strict=True):
             through = np.cumsum([weight for _, weight in choices])
             chosen[name] = min(int(np.searchsorted(through, ndtr(number))), len(choices) - 1)
         return chosen
