@@ -30,7 +30,8 @@ def examples():
 
 def test_every_public_name_is_on_a_page_once():
     named = re.findall(r"^\.\. auto\w+:: (\S+)", PAGES, re.MULTILINE)
-    assert sorted(name.removeprefix("seiswidgets.") for name in named) == sorted(sw.__all__)
+    public = [name.removeprefix("seiswidgets.") for name in named]
+    assert sorted(name for name in public if "." not in name) == sorted(sw.__all__)
 
 
 @pytest.mark.parametrize("module", [sw.datasets, sw.synthetic], ids=lambda module: module.__name__)
