@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from seiswidgets.geology.bodies import BODY
-from seiswidgets.geology.picks import CARRY, CONSTRAIN, FAULT, HORIZON
+from seiswidgets.geology.picks import AUTO, CARRY, CONSTRAIN, EXTEND, FAULT, HORIZON, TIP
 from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection, Point
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import EditorState, Tools
@@ -25,6 +25,11 @@ from seiswidgets.interaction.piece_commands import (
 )
 
 Item = tuple[str, Callable[[], object]]
+END_LABELS = {
+    TIP: "This end dies out here",
+    EXTEND: "This end reaches what lies ahead",
+    AUTO: "Judge this end by its distance",
+}
 
 
 def menu_items(editor: PickEditor, event: Press) -> list[Item]:
@@ -62,6 +67,7 @@ def _pick_items(editor: PickEditor, event: Press, pick: Pick, target: PickSelect
     else:
         items.append(("Insert a vertex here", lambda: editor.change(lambda state: state.draw(inserted, target))))
     items += _piece_items(editor, pick, target, inserted, vertex[0] if vertex else None)
+    items += _end_items(editor, pick, vertex[0] if vertex else None)
     if kind == HORIZON and len(pick.pieces) > 1:
         rest = editor.drawing.with_line(replace(target, vertex=None), [])
         items.append(("Delete this piece", lambda: editor.change(lambda state: state.draw(rest))))
@@ -100,6 +106,20 @@ def _piece_items(
     return [*items, command("Extend to fault or border", extend), command("Reverse the line", reverse)]
 
 
+def _end_items(editor: PickEditor, pick: Pick, vertex: int | None) -> list[Item]:
+    """Choices for the end of a fault at a vertex; the present one is ticked."""
+    if pick.kind != FAULT or vertex not in (0, len(pick.pieces[0]) - 1):
+        return []
+    first, last = pick.ends
+    present = last if vertex else first
+
+    def choose(end: str) -> Item:
+        ends = (first, end) if vertex else (end, last)
+        return f"{'✓ ' if end == present else ''}{END_LABELS[end]}", partial(editor.ends, pick.name, ends)
+
+    return [choose(end) for end in END_LABELS]
+
+
 def _selection_items(editor: PickEditor) -> list[Item]:
     """Actions on several pieces that are selected."""
     count = len(editor.state.chosen_pieces)
@@ -120,12 +140,16 @@ def _rock_items(editor: PickEditor, point: Point) -> list[Item]:
     held = editor.state.fixed
     hold = ("Release the held block", partial(editor.hold, None))
     pin = ("Pin this point", lambda: editor.change(lambda state: state.toggle_pin(point)))
+    level = ("Keep this level (regional)", lambda: editor.change(lambda state: state.keep_level(float(point[1]))))
+    let_go = ("Release the regional level", lambda: editor.change(lambda state: state.keep_level(None)))
     return [
         ("Begin a fault here", partial(begin, FAULT)),
         ("Begin a horizon here", partial(begin, HORIZON)),
         ("Hold this block", partial(editor.hold, point)),
         *([hold] if held else []),
         pin,
+        level,
+        *([let_go] if editor.state.document.plan.regional is not None else []),
     ]
 
 

@@ -190,9 +190,9 @@ class EditHistory:
 
 
 def edit_label(before: Document, after: Document) -> str:
-    """Name the edit of picks or held point between two documents, as the tooltip of Undo shows it."""
+    """Name the edit of picks, held point or regional level between two documents, as the tooltip of Undo shows it."""
     if before.drawing == after.drawing:
-        return "held point"
+        return "held point" if before.plan.regional == after.plan.regional else "regional level"
     old, new = ({(pick.kind, pick.name): pick for pick in one.drawing.picks} for one in (before, after))
     changed = {key for key in old.keys() & new.keys() if old[key] != new[key]}
     if len(changed) == 1 and old.keys() == new.keys():

@@ -235,6 +235,10 @@ class Drawing:
         check_use(name, use)
         return self.with_changes(kind, name, use=use)
 
+    def with_ends(self, name: str, ends: Ends) -> "Drawing":
+        """Say of each end of a fault whether it dies out, reaches on, or is judged by its distance."""
+        return self.with_changes(FAULT, name, ends=both_ends(ends))
+
     def with_body_kind(self, name: str, body: str) -> "Drawing":
         """Say whether a body is salt or an area without data."""
         check_kind(name, body)

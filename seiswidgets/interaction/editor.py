@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from seiswidgets.errors import SettingError
-from seiswidgets.geology.picks import Interpretation
+from seiswidgets.geology.picks import Ends, Interpretation
 from seiswidgets.interaction.click_hints import click_hint
 from seiswidgets.interaction.cutoff_handles import CutOffHandle, cutoff_handles
 from seiswidgets.interaction.document import Document, EditHistory, Entry
@@ -168,6 +168,10 @@ class PickEditor:
     def use(self, kind: str, name: str, use: str) -> None:
         """Let a pick constrain the restoration, only carry it along, or ignore it."""
         self._draw(f"{use} {name}", self.drawing.with_use(kind, name, use))
+
+    def ends(self, name: str, ends: Ends) -> None:
+        """Say of each end of a fault whether it dies out, reaches on, or is judged by its distance."""
+        self._draw(f"ends of {name}", self.drawing.with_ends(name, ends))
 
     def body_kind(self, kind: str, name: str, body: str) -> None:
         """Say whether a body is salt or an area without data."""

@@ -184,6 +184,10 @@ class EditorState:
         """Hold the block that a point lies in; with None, hold no block."""
         return self.change(document=replace(self.document, plan=replace(self.document.plan, fixed=point)))
 
+    def keep_level(self, level: float | None) -> "EditorState":
+        """Keep the depth of a level while faults are restored; with None, of none."""
+        return self.change(document=replace(self.document, plan=replace(self.document.plan, regional=level)))
+
     def toggle_pin(self, point: Point) -> "EditorState":
         """Hold a point, or release it if it is held."""
         plan = self.document.plan

@@ -47,7 +47,10 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("Shift+click, in Hold", "pins the point at the pointer; a click on a pin releases it"),
         ("N, Shift+N", "show the next hypothesis, the one before; anywhere in the app"),
         ("Click on a flag", "shows its finding and selects its pick"),
-        ("Right click, long press, menu key", "shows what can be done there"),
+        (
+            "Right click, long press, menu key",
+            "shows what can be done there; a regional level, and whether an end of a fault dies out, are chosen so",
+        ),
     ),
     "Moving the picture": (
         ("Wheel, two fingers, + and -", "zoom at the pointer"),

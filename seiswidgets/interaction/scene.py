@@ -27,8 +27,19 @@ def strokes(state: EditorState, projection: PaneProjection) -> list[Stroke]:
     return [
         *(line.stroke(points) for line, points in zip(lines, shown, strict=True)),
         *(line.dots(points) for line, points in zip(open_lines, vertices, strict=True)),
+        *_regional(state, projection),
         *_rectangle(state, projection),
     ]
+
+
+def _regional(state: EditorState, projection: PaneProjection) -> list[Stroke]:
+    """The level or line that keeps its depth."""
+    level, (x_min, x_max, *_) = state.document.plan.regional, state.document.section.extent
+    if level is None:
+        return []
+    points = ((x_min, level), (x_max, level)) if isinstance(level, float) else level
+    (shown,) = projection.lines([(points, 0)])
+    return [Stroke(shown, DRAFT_COLOUR, 1.0, dash=DASH, label="regional")]
 
 
 def _rectangle(state: EditorState, projection: PaneProjection) -> list[Stroke]:

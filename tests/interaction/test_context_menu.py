@@ -3,6 +3,7 @@ import pytest
 from seiswidgets.interaction.context_menu import menu_items
 from seiswidgets.interaction.drawing import PickSelection
 from seiswidgets.interaction.gestures import Press
+from seiswidgets.interaction.scene import strokes
 from tests.interaction.test_editor import FAULT, LEFT, PLAIN, VIEW, drawn, pieces  # noqa: F401
 
 EMPTY = (700.0, 100.0)
@@ -31,6 +32,18 @@ def menu(editor, point):
         (FAULT[1], "Split here", lambda editor: pieces(editor, "F2") == (tuple(FAULT[1:]),)),
         (FAULT[1], "Extend to fault or border", lambda editor: pieces(editor)[0][0] == (375.0, 0.0)),
         (FAULT[1], "Reverse the line", lambda editor: pieces(editor) == (tuple(FAULT[::-1]),)),
+        (FAULT[0], "This end dies out here", lambda editor: editor.interpretation.faults[0].ends == ("tip", "auto")),
+        (
+            FAULT[-1],
+            "This end reaches what lies ahead",
+            lambda editor: editor.drawing.picks[0].ends == ("auto", "extend"),
+        ),
+        (
+            FAULT[-1],
+            "✓ Judge this end by its distance",
+            lambda editor: editor.drawing.picks[0].ends == ("auto", "auto"),
+        ),
+        (EMPTY, "Keep this level (regional)", lambda editor: editor.state.document.plan.regional == EMPTY[1]),
         (EMPTY, "Begin a fault here", lambda editor: editor.drawing.draft.points == (EMPTY,)),
         (EMPTY, "Begin a horizon here", lambda editor: editor.drawing.draft.name is None),
         (EMPTY, "Hold this block", lambda editor: editor.state.fixed == EMPTY),
@@ -73,3 +86,14 @@ def test_several_selected_pieces_have_actions_of_their_own(drawn):  # noqa: F811
     drawn.change(lambda state: state.choose(state.change(selection=PickSelection("horizon", "H1")).chosen_pieces))
     menu(drawn, EMPTY)["Delete the 2 selected pieces"]()
     assert drawn.drawing.names("horizon") == ("H2",)
+
+
+def test_a_regional_level_is_seen_until_it_is_released(drawn):  # noqa: F811
+    assert "Release the regional level" not in menu(drawn, EMPTY)
+    menu(drawn, EMPTY)["Keep this level (regional)"]()
+    (level,) = (stroke for stroke in strokes(drawn.state, PLAIN) if stroke.label == "regional")
+    x_min, x_max, *_ = VIEW.section.extent
+    assert level.points.tolist() == [[x_min, EMPTY[1]], [x_max, EMPTY[1]]]
+    assert drawn.history.next_undo.label == "regional level"
+    menu(drawn, EMPTY)["Release the regional level"]()
+    assert not [stroke for stroke in strokes(drawn.state, PLAIN) if stroke.label == "regional"]
