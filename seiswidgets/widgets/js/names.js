@@ -2,6 +2,7 @@
 // fields with a tooltip but no label. This gives each control in a box the name that a sighted user sees.
 
 const CONTROLS = ".noUi-handle, .widget-play button, input, select";
+const CONCERNED = `${CONTROLS}, .widget-label, .widget-tab-contents, [title]`;
 
 /** @type {Record<string, string>} */
 const PLAY_BUTTONS = { "fa-play": "Play", "fa-pause": "Pause", "fa-stop": "Stop", "fa-retweet": "Repeat" };
@@ -39,13 +40,25 @@ function nameControls(box) {
   }
 }
 
+/**
+ * Return whether a change may concern a name: lines and readouts change with every frame of a drag, and hold no controls.
+ *
+ * @param {MutationRecord} change
+ */
+function mayNeedNames({ type, target, attributeName, addedNodes }) {
+  if (!(target instanceof HTMLElement)) return false;
+  if (type === "attributes") return attributeName === "title" || target.closest(".widget-play") !== null;
+  const isNamed = (/** @type {Node} */ node) =>
+    node instanceof HTMLElement && (node.matches(CONCERNED) || node.querySelector(CONCERNED) !== null);
+  return target.matches(".widget-label") || [...addedNodes].some(isNamed);
+}
+
 /** @type {import("@anywidget/types").Render} */
 function render({ el }) {
   /** @type {HTMLElement | null} */
   let box = null;
   const observer = new MutationObserver((changes) => {
-    // SVG changes at every move of the pointer, and holds no controls.
-    if (box && changes.some(({ target }) => !(target instanceof SVGElement))) nameControls(box);
+    if (box && changes.some(mayNeedNames)) nameControls(box);
   });
   function start() {
     box = el.parentElement;

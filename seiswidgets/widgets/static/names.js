@@ -2,6 +2,7 @@
 
 // names.js
 var CONTROLS = ".noUi-handle, .widget-play button, input, select";
+var CONCERNED = `${CONTROLS}, .widget-label, .widget-tab-contents, [title]`;
 var PLAY_BUTTONS = { "fa-play": "Play", "fa-pause": "Pause", "fa-stop": "Stop", "fa-retweet": "Repeat" };
 function accessibleName(control) {
   if (control.type === "color") return "Colour";
@@ -31,10 +32,16 @@ function nameControls(box) {
     if (name && !isLabelled) control.setAttribute("aria-label", name);
   }
 }
+function mayNeedNames({ type, target, attributeName, addedNodes }) {
+  if (!(target instanceof HTMLElement)) return false;
+  if (type === "attributes") return attributeName === "title" || target.closest(".widget-play") !== null;
+  const isNamed = (node) => node instanceof HTMLElement && (node.matches(CONCERNED) || node.querySelector(CONCERNED) !== null);
+  return target.matches(".widget-label") || [...addedNodes].some(isNamed);
+}
 function render({ el }) {
   let box = null;
   const observer = new MutationObserver((changes) => {
-    if (box && changes.some(({ target }) => !(target instanceof SVGElement))) nameControls(box);
+    if (box && changes.some(mayNeedNames)) nameControls(box);
   });
   function start() {
     box = el.parentElement;

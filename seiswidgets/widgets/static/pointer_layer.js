@@ -1161,7 +1161,8 @@ function within(start, step, pixels, samples) {
 
 // pointer_layer/live_pane.js
 var LONGEST_HOLD = 1e3;
-var SLOW = 14;
+var SLOW = 10;
+var SAVED = 3;
 var SOON = 200;
 var PARTS_BY_TRAIT = {
   stages: ["picture", "mesh", "strokes", "marks", "cursors", "note"],
@@ -1250,29 +1251,27 @@ var LivePane = class {
   drawPicture({ width, height, pixelRatio, model }) {
     const { picture, canvas } = this;
     if (!picture) return;
-    const ratio = Math.max(pixelRatio, this.leastRatio);
+    const start = performance.now();
+    const coarse = this.coarseness(picture.time, start);
+    const ratio = Math.max(pixelRatio, this.leastRatio) / coarse;
     const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     if (this.pixels.width !== size.width || this.pixels.height !== size.height)
       this.pixels = new ImageData(size.width, size.height);
-    const pixels = new Uint32Array(this.pixels.data.buffer);
-    const start = performance.now();
-    const rows = this.rowsAtATime(picture.time, start);
-    const drawn = { width: size.width, height: Math.ceil(size.height / rows) };
     const scene = picture.scene(this.isRestored, model.get("window"));
-    this.drawScene(pixels, drawn, this.isBare ? withoutRatios(scene) : scene);
-    if (rows > 1) repeatRows(pixels, size, rows);
+    this.drawScene(new Uint32Array(this.pixels.data.buffer), size, this.isBare ? withoutRatios(scene) : scene);
     canvas.getContext("2d")?.putImageData(this.pixels, 0, 0);
-    this.last = { time: picture.time, start, took: (performance.now() - start) * rows };
+    const took = performance.now() - start;
+    this.last = { time: picture.time, start, took: coarse > 1 ? took * SAVED : took };
   }
   /**
-   * The height in pixels of the rows that are drawn: 1, or while time runs on a slow computer, 2. Then the picture is
+   * Screen pixels along the side of a picture's pixel: 1, or while time runs on a slow computer, 2. Then the picture is
    * drawn finely as soon as it stands still.
    *
    * @param {number} time
    * @param {number} now
    */
-  rowsAtATime(time, now) {
+  coarseness(time, now) {
     clearTimeout(this.refining);
     const { last } = this;
     const isRunning = time !== last.time && now - last.start < SOON;
@@ -1353,12 +1352,6 @@ var LivePane = class {
 };
 function withoutRatios(scene) {
   return { ...scene, deformation: { ...scene.deformation, opacity: 0 } };
-}
-function repeatRows(pixels, { width, height }, rows) {
-  for (let row = height - 1; row > 0; row--) {
-    const from = Math.floor(row / rows) * width;
-    pixels.copyWithin(row * width, from, from + width);
-  }
 }
 
 // pointer_layer/marks.js
@@ -1468,12 +1461,14 @@ var PlotArea = class {
     this.plot = plot;
     this.width = 0;
     this.height = 0;
+    this.pixelRatio = 1;
   }
   /** Read the present size, before any scaling of the page; false if the plot area is not shown. */
   measure() {
     const { width, height } = unscaledSize(this.plot);
     if (!(width >= 1 && height >= 1)) return false;
     [this.width, this.height] = [width, height];
+    this.pixelRatio = this.presentPixelRatio;
     return true;
   }
   get isReady() {
@@ -1522,10 +1517,10 @@ var PlotArea = class {
   pointerPosition(event) {
     return unscaledPosition(event, this.plot, this);
   }
-  /** Device pixels per css pixel, to three decimals; more on a page that is enlarged. */
-  get pixelRatio() {
+  /** Device pixels per css pixel, to three decimals; more on a page that is enlarged. To ask for it takes long. */
+  get presentPixelRatio() {
     const enlarged = Math.min(MOST_ENLARGED, this.plot.getBoundingClientRect().width / this.width || 1);
-    return Number(((window.devicePixelRatio || 1) * enlarged).toFixed(3));
+    return Number(((globalThis.devicePixelRatio || 1) * enlarged).toFixed(3));
   }
 };
 
@@ -1731,12 +1726,12 @@ var LayerView = class {
     this.plotArea = new PlotArea(model, this.elements.plot);
     this.pointer = null;
     this.maps = null;
+    this.decoded = { states: null, strokes: [] };
     this.handles = [];
     this.live = new LivePane(model, el, (parts) => this.requestDraw(parts));
     this.outdated = /* @__PURE__ */ new Set();
     this.isScheduled = false;
     this.hasReported = false;
-    this.pixelRatio = 1;
     this.restTimer = void 0;
   }
   /**
@@ -1768,15 +1763,23 @@ var LayerView = class {
     if (outdated.has("axes")) this.drawAxes();
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
+<<<<<<< HEAD
     if (outdated.has("mesh")) {
       drawShade(elements.shade, model.get("shade"), plotArea);
       drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
     }
+=======
+    if (outdated.has("mesh")) this.drawMesh();
+>>>>>>> 4821b54 (Less work per frame in the page: no mesh that is not shown, lines decoded once, no layout asked for, names sought only for new controls; Play draws a quarter of the pixels on a slow computer)
     if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
     const marks = live.placedMarks(model.get("marks"));
     if (outdated.has("strokes")) this.drawLines(marks);
     if (outdated.has("marks"))
       drawMarks(elements.marks, marks, plotArea, (index) => model.send({ kind: "finding", key: String(index) }));
+  }
+  drawMesh() {
+    const opacity = this.model.get("mesh_opacity");
+    drawMesh(this.elements.mesh, opacity > 0 ? this.mesh : null, opacity, this.plotArea);
   }
   /** @param {import("./types.js").Mark[]} marks */
   drawLines(marks) {
@@ -1789,8 +1792,11 @@ var LayerView = class {
   growHandle() {
     drawGrown(this.elements.grown, nearestHandle(this.handles, this.pointer));
   }
+  /** The strokes, decoded once. */
   get strokes() {
-    return this.model.get("strokes").map(decodeStroke);
+    const states = this.model.get("strokes");
+    if (this.decoded.states !== states) this.decoded = { states, strokes: states.map(decodeStroke) };
+    return this.decoded.strokes;
   }
   get mesh() {
     const { vertices, edges } = this.model.get("mesh");
@@ -1823,7 +1829,7 @@ var LayerView = class {
   }
   /** Draw for the present scale of the page: no event tells that it has changed. */
   followScale() {
-    if (this.plotArea.pixelRatio !== this.pixelRatio) this.reportSize();
+    if (this.plotArea.presentPixelRatio !== this.plotArea.pixelRatio) this.reportSize();
   }
   /** Set the carried position. It is never saved: other layers need it, the kernel does not. */
   carryPointer() {
@@ -1856,7 +1862,6 @@ var LayerView = class {
     const canvases = this.el.parentElement?.querySelectorAll(":scope > canvas");
     for (const canvas of canvases ?? []) canvas.inert = true;
     const { width, height, pixelRatio: ratio } = this.plotArea;
-    this.pixelRatio = ratio;
     this.model.send({ kind: "size", width, height, ratio, fresh: !this.hasReported });
     this.hasReported = true;
     this.requestDraw(ALL_PARTS);

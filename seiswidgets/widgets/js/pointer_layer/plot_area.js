@@ -18,6 +18,7 @@ export class PlotArea {
     this.plot = plot;
     this.width = 0;
     this.height = 0;
+    this.pixelRatio = 1; // when it was measured
   }
 
   /** Read the present size, before any scaling of the page; false if the plot area is not shown. */
@@ -25,6 +26,7 @@ export class PlotArea {
     const { width, height } = unscaledSize(this.plot);
     if (!(width >= 1 && height >= 1)) return false;
     [this.width, this.height] = [width, height];
+    this.pixelRatio = this.presentPixelRatio;
     return true;
   }
 
@@ -81,9 +83,9 @@ export class PlotArea {
     return unscaledPosition(event, this.plot, this);
   }
 
-  /** Device pixels per css pixel, to three decimals; more on a page that is enlarged. */
-  get pixelRatio() {
+  /** Device pixels per css pixel, to three decimals; more on a page that is enlarged. To ask for it takes long. */
+  get presentPixelRatio() {
     const enlarged = Math.min(MOST_ENLARGED, this.plot.getBoundingClientRect().width / this.width || 1);
-    return Number(((window.devicePixelRatio || 1) * enlarged).toFixed(3));
+    return Number(((globalThis.devicePixelRatio || 1) * enlarged).toFixed(3));
   }
 }

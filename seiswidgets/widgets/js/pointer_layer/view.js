@@ -73,6 +73,8 @@ export class LayerView {
     this.pointer = null; // null while it is elsewhere
     /** @type {PiecewiseAffineMap[] | null} */
     this.maps = null; // of the chain, built when first needed
+    /** @type {{ states: unknown, strokes: import("./types.js").Stroke[] }} */
+    this.decoded = { states: null, strokes: [] };
     /** @type {import("./handles.js").Handle[]} */
     this.handles = [];
     this.live = new LivePane(model, el, (parts) => this.requestDraw(parts));
@@ -80,7 +82,6 @@ export class LayerView {
     this.outdated = new Set();
     this.isScheduled = false;
     this.hasReported = false;
-    this.pixelRatio = 1; // that the kernel knows
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.restTimer = undefined;
   }
@@ -116,15 +117,24 @@ export class LayerView {
     if (outdated.has("axes")) this.drawAxes();
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
+<<<<<<< HEAD
     if (outdated.has("mesh")) {
       drawShade(elements.shade, model.get("shade"), plotArea);
       drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
     }
+=======
+    if (outdated.has("mesh")) this.drawMesh();
+>>>>>>> 4821b54 (Less work per frame in the page: no mesh that is not shown, lines decoded once, no layout asked for, names sought only for new controls; Play draws a quarter of the pixels on a slow computer)
     if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
     const marks = live.placedMarks(model.get("marks"));
     if (outdated.has("strokes")) this.drawLines(marks);
     if (outdated.has("marks"))
       drawMarks(elements.marks, marks, plotArea, (index) => model.send({ kind: "finding", key: String(index) }));
+  }
+
+  drawMesh() {
+    const opacity = this.model.get("mesh_opacity");
+    drawMesh(this.elements.mesh, opacity > 0 ? this.mesh : null, opacity, this.plotArea);
   }
 
   /** @param {import("./types.js").Mark[]} marks */
@@ -142,8 +152,11 @@ export class LayerView {
     drawGrown(this.elements.grown, nearestHandle(this.handles, this.pointer));
   }
 
+  /** The strokes, decoded once. */
   get strokes() {
-    return this.model.get("strokes").map(decodeStroke);
+    const states = this.model.get("strokes");
+    if (this.decoded.states !== states) this.decoded = { states, strokes: states.map(decodeStroke) };
+    return this.decoded.strokes;
   }
 
   get mesh() {
@@ -181,7 +194,7 @@ export class LayerView {
 
   /** Draw for the present scale of the page: no event tells that it has changed. */
   followScale() {
-    if (this.plotArea.pixelRatio !== this.pixelRatio) this.reportSize();
+    if (this.plotArea.presentPixelRatio !== this.plotArea.pixelRatio) this.reportSize();
   }
 
   /** Set the carried position. It is never saved: other layers need it, the kernel does not. */
@@ -219,7 +232,6 @@ export class LayerView {
     const canvases = this.el.parentElement?.querySelectorAll(":scope > canvas");
     for (const canvas of canvases ?? []) canvas.inert = true; // ipycanvas would take the focus and trap Tab
     const { width, height, pixelRatio: ratio } = this.plotArea;
-    this.pixelRatio = ratio;
     this.model.send({ kind: "size", width, height, ratio, fresh: !this.hasReported });
     this.hasReported = true;
     this.requestDraw(ALL_PARTS);
