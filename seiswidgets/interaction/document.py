@@ -2,12 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 from seiswidgets.geology.hypothesis import FIRST_NAME
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
+from seiswidgets.interaction.cutoff_handles import CutOffHandle, cutoff_handles
 from seiswidgets.interaction.drawing import Drawing, Pick, PickSelection
 
 DRAFT_LINE = "draft line"  # label of an edit of the draft line alone
@@ -46,6 +48,11 @@ class Document:
     name: str = FIRST_NAME
     before: tuple[Alternative, ...] = ()
     after: tuple[Alternative, ...] = ()
+
+    @cached_property
+    def cutoffs(self) -> tuple[CutOffHandle, ...]:
+        """Cut-offs of visible horizons at visible faults."""
+        return cutoff_handles(self.drawing, self.section)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 from seiswidgets.errors import SettingError
 from seiswidgets.geology.picks import Ends, Interpretation
 from seiswidgets.interaction.click_hints import click_hint
-from seiswidgets.interaction.cutoff_handles import CutOffHandle, cutoff_handles
+from seiswidgets.interaction.cutoff_handles import CutOffHandle
 from seiswidgets.interaction.document import Document, EditHistory, Entry
 from seiswidgets.interaction.drawing import Drawing, PickSelection, Point
 from seiswidgets.interaction.editor_state import MODES, EditorState, Tools
@@ -80,7 +80,7 @@ class PickEditor:
 
     def cutoffs(self) -> tuple[CutOffHandle, ...]:
         """Cut-offs of visible horizons at visible faults."""
-        return cutoff_handles(self.drawing, self.history.document.section)
+        return self.history.document.cutoffs
 
     def handle(self, gesture: Gesture) -> bool:
         """Handle a gesture; return False if it was not consumed, so that the pane may pan, fit, or pass it on."""

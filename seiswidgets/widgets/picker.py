@@ -239,7 +239,7 @@ class Picker(WithParts, VBox):
         if self._drawn.get(pane) == shown:
             return
         self._drawn[pane] = shown
-        pane.draw_lines(strokes(state, projection))
+        pane.draw_lines(strokes(state, projection), briefly=state.drag is not None)
         flagged = [flag for _, flag in flags(self._findings, projection)]
         pane.draw_marks([*marks(state, projection, self.editor.cutoffs()), *flagged])
         pane.rubber = rubber_band(state, projection)

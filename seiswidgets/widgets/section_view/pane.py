@@ -158,15 +158,24 @@ class SectionPane(WithParts, VBox):
         self.layer.on_pointer_message(self._receive)
         keep_order(self)
 
-    def draw_lines(self, strokes: Sequence[Stroke]) -> None:
-        """Replace the lines on the section."""
+    def draw_lines(self, strokes: Sequence[Stroke], *, briefly: bool = False) -> None:
+        """Replace the lines on the section; briefly, as during a drag, by sending only those that have changed."""
         self._lines = [stroke.state() for stroke in strokes]
-        self.layer.strokes = [*self._bands, *self._lines]
+        self._send_strokes(briefly=briefly)
 
     def draw_bands(self, strokes: Sequence[Stroke]) -> None:
         """Replace the lines below these, which belong to no pick."""
         self._bands = [stroke.state() for stroke in strokes]
-        self.layer.strokes = [*self._bands, *self._lines]
+        self._send_strokes()
+
+    def _send_strokes(self, *, briefly: bool = False) -> None:
+        states, layer = [*self._bands, *self._lines], self.layer
+        if briefly and len(states) == len(layer.strokes):
+            pairs = enumerate(zip(states, layer.strokes, strict=True))
+            layer.changed_strokes = [{**state, "index": index} for index, (state, known) in pairs if state != known]
+            return
+        with layer.hold_sync():
+            layer.strokes, layer.changed_strokes = states, []
 
     def draw_marks(self, marks: Sequence[Mark]) -> None:
         """Replace the marks on the section."""

@@ -34,6 +34,8 @@ class PointerLayer(anywidget.AnyWidget):
         Width and height of the plot area as the kernel knows it, in css pixels; pixels of the axes refer to it.
     strokes, marks : list of dict
         See `Stroke.state` and `Mark.state`.
+    changed_strokes : list of dict
+        Strokes that are drawn instead of those at their "index", as during a drag.
     rubber : list of [x, z]
         A dashed line, in the section's units, that continues to the pointer, or else to the linked cursor.
     mesh : dict
@@ -67,6 +69,7 @@ class PointerLayer(anywidget.AnyWidget):
     window: List[Any] = List().tag(sync=True)
     size: List[Any] = List().tag(sync=True)
     strokes: List[Any] = List().tag(sync=True, to_json=without_usual)
+    changed_strokes: List[Any] = List().tag(sync=True, to_json=without_usual)
     marks: List[Any] = List().tag(sync=True, to_json=without_usual)
     rubber: List[Any] = List().tag(sync=True)
     mesh = Dict().tag(sync=True)

@@ -1690,6 +1690,7 @@ var PARTS_BY_TRAIT2 = {
   size: ["axes"],
   window: ["picture", "mesh", "strokes", "marks", "cursors"],
   strokes: ["strokes"],
+  changed_strokes: ["strokes"],
   marks: ["strokes", "marks"],
   // lines are thin near cut-offs
   mesh: ["mesh"],
@@ -1763,14 +1764,7 @@ var LayerView = class {
     if (outdated.has("axes")) this.drawAxes();
     if (outdated.has("note")) elements.note.textContent = (model.get("axes").note ?? "") + live.moment;
     if (outdated.has("picture")) live.drawPicture(plotArea);
-<<<<<<< HEAD
-    if (outdated.has("mesh")) {
-      drawShade(elements.shade, model.get("shade"), plotArea);
-      drawMesh(elements.mesh, this.mesh, model.get("mesh_opacity"), plotArea);
-    }
-=======
     if (outdated.has("mesh")) this.drawMesh();
->>>>>>> 4821b54 (Less work per frame in the page: no mesh that is not shown, lines decoded once, no layout asked for, names sought only for new controls; Play draws a quarter of the pixels on a slow computer)
     if (outdated.has("bare")) this.el.classList.toggle("bare", live.isBare);
     const marks = live.placedMarks(model.get("marks"));
     if (outdated.has("strokes")) this.drawLines(marks);
@@ -1779,6 +1773,7 @@ var LayerView = class {
   }
   drawMesh() {
     const opacity = this.model.get("mesh_opacity");
+    drawShade(this.elements.shade, this.model.get("shade"), this.plotArea);
     drawMesh(this.elements.mesh, opacity > 0 ? this.mesh : null, opacity, this.plotArea);
   }
   /** @param {import("./types.js").Mark[]} marks */
@@ -1792,11 +1787,13 @@ var LayerView = class {
   growHandle() {
     drawGrown(this.elements.grown, nearestHandle(this.handles, this.pointer));
   }
-  /** The strokes, decoded once. */
+  /** The strokes, decoded once, and in the place of some those that have changed. */
   get strokes() {
     const states = this.model.get("strokes");
     if (this.decoded.states !== states) this.decoded = { states, strokes: states.map(decodeStroke) };
-    return this.decoded.strokes;
+    const strokes = [...this.decoded.strokes];
+    for (const { index, ...state } of this.model.get("changed_strokes") ?? []) strokes[index] = decodeStroke(state);
+    return strokes;
   }
   get mesh() {
     const { vertices, edges } = this.model.get("mesh");

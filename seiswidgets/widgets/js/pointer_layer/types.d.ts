@@ -46,6 +46,7 @@ export type Traits = {
   window: number[];
   size: number[];
   strokes: StrokeState[];
+  changed_strokes: (StrokeState & { index: number })[];
   marks: Mark[];
   rubber: [number, number][];
   mesh: Partial<Mesh>;
