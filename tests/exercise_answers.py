@@ -94,7 +94,7 @@ ANSWERS = {
             {
                 "lambda points: 1 - np.ptp(points[:, 0]) / length_of(points)": "share",
                 "lambda points: 100 * np.ptp(points[:, 0]) / length_of(points)": "left",
-                "lambda points: 'much'": "no number",
+                "lambda points: 'much'": "not a number",
                 "lambda points: None": "return",
             },
         ),

@@ -122,7 +122,7 @@ def test_a_unit_of_the_wrong_kind_is_named(question, given, said):
 def test_other_text_is_no_number(given):
     feedback = HEAVE.check(given)
     assert not feedback.right
-    assert "is no number. Give one, in m" in feedback.text
+    assert "is not a number. Give one, in m" in feedback.text
 
 
 @pytest.mark.parametrize(("given", "said"), [("", "Give a number, in m, such as 12.5."), (..., "Replace the dots")])
@@ -157,7 +157,7 @@ def undefined(throw, dip):
         (lambda throw, dip: ..., "Replace the dots"),
         (86.6, "Give the function itself, without brackets; this is 86.6."),
         (lambda throw, dip: None, "returns nothing; begin the line with return."),
-        (lambda throw, dip: "steep", "returns steep, which is no number."),
+        (lambda throw, dip: "steep", "returns steep, which is not a number."),
         (lambda throw, dip: [throw, dip], "returns an array of shape (2,), but one number is wanted"),
         (lambda throw, dip: np.inf, "Is something divided by zero?"),
         (undefined, "undefined(100, 60) raised NameError"),

@@ -259,7 +259,7 @@ class Code(Question):
         try:
             value = np.asarray(value, dtype=float)
         except (TypeError, ValueError):
-            return Feedback(False, f"{called} returns {_brief(value)}, which is no number.")
+            return Feedback(False, f"{called} returns {_brief(value)}, which is not a number.")
         if value.shape != right.shape:
             wanted = f"{right.size} numbers are" if right.ndim else "one number is"
             return Feedback(False, f"{called} returns an array of shape {value.shape}, but {wanted} wanted.")

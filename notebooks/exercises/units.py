@@ -50,7 +50,7 @@ def read_quantity(given: object, unit: str) -> list[Quantity] | str:
     value = _value(*found.groups()[:2]) if found else None
     if value is None:
         asked = f", in {unit}" if unit else ""
-        start = f"{text[:40]!r} is no number. Give one" if text else "Give a number"
+        start = f"{text[:40]!r} is not a number. Give one" if text else "Give a number"
         return f"{start}{asked}, such as 12.5."
     spelt, kind = found[3], KINDS[unit]
     if not spelt:

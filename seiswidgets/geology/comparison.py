@@ -16,6 +16,7 @@ from seiswidgets.geology.section import Section
 from seiswidgets.geology.validation import checked_kind
 
 SAMPLES = 200  # points along each line that are compared
+REACH = 0.05  # of the height of the section: picks farther from a true line do not count as picking it
 
 
 @dataclass(frozen=True)
@@ -160,6 +161,7 @@ def _match(
     section: Section, kind: str, picks: Sequence[Fault | Horizon], truth: Sequence[Fault | Horizon]
 ) -> tuple[list[LineScore], list[str]]:
     """Scores of the true lines of a kind, and the names of the picks that are left over."""
+    reach = REACH * float(np.ptp(section.extent[2:]) * section.metres[1])
     drawn = [_dense_lines(section, pick) for pick in picks]
     true = [_dense_lines(section, pick) for pick in truth]
     errors = np.array([[_error(line, other) for line in drawn] for other in true]).reshape(len(true), len(drawn))
@@ -168,7 +170,7 @@ def _match(
     for row, pick in enumerate(truth):
         if row in partner:
             column = partner[row]
-            found = float(errors[row, column]), _coverage(drawn[column], true[row])
+            found = float(errors[row, column]), _coverage(drawn[column], true[row], reach)
             scores.append(LineScore(kind, pick.name, picks[column].name, *found))
         else:
             scores.append(LineScore(kind, pick.name, None, np.nan, 0.0))
@@ -194,14 +196,17 @@ def _error(drawn: list[np.ndarray], true: list[np.ndarray]) -> float:
     return float(np.sqrt(np.mean(nearest**2)))
 
 
-def _coverage(drawn: list[np.ndarray], true: list[np.ndarray]) -> float:
-    """Share of the true lines' length that lies beside the drawn ones."""
+def _coverage(drawn: list[np.ndarray], true: list[np.ndarray], reach: float) -> float:
+    """Share of the true lines' length that lies beside the drawn ones, within reach."""
     pieces = [LineString(line) for line in true]
     covered = [np.zeros(SAMPLES, dtype=bool) for _ in pieces]
     for line in drawn:
         at = points(line)
         index = int(np.argmin([distances(at, piece).mean() for piece in pieces]))
-        along = line_locate_point(pieces[index], at, normalized=True)
+        near = at[distances(at, pieces[index]) <= reach]
+        if not len(near):
+            continue
+        along = line_locate_point(pieces[index], near, normalized=True)
         places = (np.arange(SAMPLES) + 0.5) / SAMPLES
         covered[index] |= (places >= along.min()) & (places <= along.max())
     lengths = [piece.length for piece in pieces]

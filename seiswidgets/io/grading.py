@@ -26,7 +26,7 @@ from seiswidgets.io.session.sources import section_sha256
 
 VERSION = re.compile(r"(?<=\.)\d{6}\.(?=json$)")  # in the names of automatically saved versions
 KEY_FORMAT, KEY_VERSION = "seiswidgets key", 1
-MOST_STUDENTS, MOST_POINTS, MOST_STEPS = 1000, 20_000, 8
+MOST_STUDENTS, MOST_POINTS, MOST_STEPS, MOST_ITERATIONS = 1000, 20_000, 8, 60
 SCALE = {  # marks, the error that still gets all of them, and the error that gets none
     "fault": (20, 1.5, 8.0),  # in traces
     "horizon": (30, 1.5, 10.0),  # in samples
@@ -245,7 +245,8 @@ def _restored(session: Session, section: Section) -> tuple[Restoration | None, s
     if len(steps) > MOST_STEPS:
         return None, f"not restored: {len(steps)} steps, more than {MOST_STEPS}"
     try:
-        restored = Plan(steps, fixed=session.fixed).restore(section, session.interpretation)
+        plan = Plan(steps, fixed=session.fixed, max_iterations=MOST_ITERATIONS)
+        restored = plan.restore(section, session.interpretation)
     except SeiswidgetsError as error:
         return None, f"not restored: {error}"
     return (restored, "") if restored.stages else (None, "not restored: no step has anything to work on")

@@ -17,7 +17,7 @@ from seiswidgets.plot.story import label_outer, make_panels
 from seiswidgets.signatures import strict_keywords
 
 THREADS = 200  # members whose horizons are drawn, at most
-FONT = 8.5  # points
+FONT = 9.0  # points
 SPREAD_COLOURS = "viridis"
 
 

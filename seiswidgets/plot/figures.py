@@ -159,7 +159,7 @@ def _draw_deformation(
     _draw_histogram(histogram, bins, shares, colours)
     _draw_colour_bar(histogram, colours, span)
     low, median, high = (f"{value:.3f}" for value in percentiles)
-    histogram.set_title(f"median {median}\n98% of the area from {low} to {high}", loc="left", fontsize=8.5)
+    histogram.set_title(f"median {median}\n98% of the area from {low} to {high}", loc="left", fontsize=9)
 
 
 def _draw_map(ax: Axes, restored: Restoration, colours: ScalarMappable) -> None:
@@ -182,7 +182,7 @@ def _draw_histogram(ax: Axes, bins: np.ndarray, shares: np.ndarray, colours: Sca
     ax.xaxis.set_major_locator(NullLocator())
     ax.xaxis.set_minor_locator(NullLocator())
     for x, text, shade, side in ((0.01, "expansion", 0.1, "left"), (0.99, "compression", 0.9, "right")):
-        ax.text(x, 0.97, text, color=colours.cmap(shade), ha=side, va="top", fontsize=8.5, transform=ax.transAxes)
+        ax.text(x, 0.97, text, color=colours.cmap(shade), ha=side, va="top", fontsize=9, transform=ax.transAxes)
 
 
 def _draw_colour_bar(ax: Axes, colours: ScalarMappable, span: float) -> None:

@@ -17,7 +17,7 @@ from seiswidgets.plot.panels import amplitude_limit, draw_picks, draw_section
 from seiswidgets.plot.story import label_outer, make_panels
 from seiswidgets.signatures import strict_keywords
 
-FONT = 8.5  # points
+FONT = 9.0  # points
 NUMBERS = 3  # of an outcome, in the title of its panel
 
 

@@ -169,7 +169,7 @@ def draw_picks(
     interpretation: Interpretation | None,
     frame: PlotFrame,
     colours: PickColours | None = None,
-    fontsize: float = 8.5,
+    fontsize: float = 9,
     apart: float = 0.0,
 ) -> None:
     """Draw the original's picks after restoration, each with its name.

@@ -58,6 +58,13 @@ def test_a_missing_pick_is_named_and_an_extra_one_too():
     assert np.isnan(sw.compare_picks(CASE.section, sw.Interpretation(), TRUE).error("fault"))
 
 
+def test_a_pick_far_from_the_truth_covers_nothing_of_it():
+    level = sw.Interpretation([sw.Fault([(0, 500), (4000, 500)], name="F1")], TRUE.horizons)
+    found = sw.compare_picks(CASE.section, level, TRUE)
+    assert found.coverage("fault") < 0.15
+    assert found.error("fault") > 500
+
+
 def test_half_a_line_covers_half():
     bed = TRUE.horizons[1].pieces[0]
     half = sw.Horizon(bed[: len(bed) // 2 + 1], TRUE.horizons[1].pieces[1], name="H2")
