@@ -129,7 +129,7 @@ class PaneProjection:
     def _moved_off_faults(self, lines: Sequence[Line]) -> list[np.ndarray]:
         if self.restoration is None:
             return [np.asarray(points, float) for points, _ in lines]
-        return [_moved_off_fault(points, self.view.pixel, side) for points, side in lines]
+        return [moved_off_fault(points, self.view.pixel, side) for points, side in lines]
 
 
 def side_of(kind: str, points: ArrayLike) -> int:
@@ -140,7 +140,7 @@ def side_of(kind: str, points: ArrayLike) -> int:
     return 1 if np.sum(x * next_z - next_x * z) < 0 else -1
 
 
-def _moved_off_fault(points: ArrayLike, pixel: np.ndarray, side: int) -> np.ndarray:
+def moved_off_fault(points: ArrayLike, pixel: np.ndarray, side: int) -> np.ndarray:
     """Move a line off the faults by a fraction of a pixel: its ends inwards, and unless it has no side, sideways."""
     line = np.array(points, float)
     if len(line) < 2:

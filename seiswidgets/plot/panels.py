@@ -19,6 +19,7 @@ from seiswidgets.geology.stage import Stage
 from seiswidgets.plot.frame import NO_DATA, PLAIN_TEXT, PlotFrame, Window, edges, plot_frame
 from seiswidgets.signatures import strict_keywords
 
+ROOM = 0.08  # of a panel's height, for a name
 MESH_COLOUR = "#d81b60"
 HALO = [withStroke(linewidth=3.2, foreground="0.15", alpha=0.75)]  # dark: most colours of picks are light
 AnyPick = Fault | Horizon | Body
@@ -186,17 +187,23 @@ def draw_picks(
         if isinstance(pick, Fault):
             placement = _below_or_beside(points, frame)
         else:
-            free = [one for one in _above_ends(points) if _is_free(one, taken, apart)]
+            places = [(one, _name_at(one, apart)) for one in _beside_ends(points, frame)]
+            free = [place for place in places if _is_free(place[1], taken, apart)]
             if not free:
                 continue
-            placement = free[0]
-            taken.append((placement["ha"], placement["xy"][1]))
+            placement, at = free[0]
+            taken.append(at)
         look: dict[str, Any] = {"color": colour, "path_effects": HALO, "fontsize": fontsize, "fontweight": "bold"}
         ax.annotate(pick.name, textcoords="offset points", **placement, **look, **PLAIN_TEXT)
 
 
-def _is_free(placement: dict[str, Any], taken: list[tuple[str, float]], apart: float) -> bool:
-    return all(side != placement["ha"] or abs(placement["xy"][1] - z) >= apart for side, z in taken)
+def _name_at(placement: dict[str, Any], height: float) -> tuple[str, float]:
+    """Side at which a name stands, and z of its middle."""
+    return placement["ha"], placement["xy"][1] + (height / 2 if placement["va"] == "top" else -height / 2)
+
+
+def _is_free(at: tuple[str, float], taken: list[tuple[str, float]], apart: float) -> bool:
+    return all(side != at[0] or abs(at[1] - z) >= apart for side, z in taken)
 
 
 def draw_pick_lines(
@@ -238,7 +245,7 @@ def _below_or_beside(points: np.ndarray, frame: PlotFrame) -> dict[str, Any]:
     """
     x_min, x_max, z_min, z_max = frame.window
     top, bottom = points[np.argmin(points[:, 1])], points[np.argmax(points[:, 1])]
-    room, margin = 0.08 * (z_max - z_min), 0.05 * (x_max - x_min)
+    room, margin = ROOM * (z_max - z_min), 0.05 * (x_max - x_min)
     if bottom[1] < z_max - room:
         return {"xy": bottom, "xytext": (0, -3), "ha": "center", "va": "top"}
     if top[1] > z_min + 2 * room:
@@ -247,10 +254,13 @@ def _below_or_beside(points: np.ndarray, frame: PlotFrame) -> dict[str, Any]:
     return {"xy": top, "xytext": (-5 if left else 5, -2), "ha": "right" if left else "left", "va": "top"}
 
 
-def _above_ends(points: np.ndarray) -> list[dict[str, Any]]:
-    """Placements of a horizon's name: above its first point, and above its last."""
+def _beside_ends(points: np.ndarray, frame: PlotFrame) -> list[dict[str, Any]]:
+    """Placements of a horizon's name: above its first point, and above its last; below it if there is no room."""
     first, last = points[np.argmin(points[:, 0])], points[np.argmax(points[:, 0])]
+    _, _, z_min, z_max = frame.window
+    up, down = {"va": "bottom"}, {"va": "top"}
     return [
-        {"xy": first, "xytext": (3, 4), "ha": "left", "va": "bottom"},
-        {"xy": last, "xytext": (-3, 4), "ha": "right", "va": "bottom"},
+        {"xy": end, "xytext": (inwards, 4 if has_room else -4), "ha": side, **(up if has_room else down)}
+        for end, inwards, side in ((first, 3, "left"), (last, -3, "right"))
+        for has_room in (end[1] - z_min > ROOM * (z_max - z_min),)
     ]

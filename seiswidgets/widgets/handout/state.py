@@ -7,13 +7,13 @@ import numpy as np
 
 from seiswidgets.geology.bodies import BODY
 from seiswidgets.geology.pick_colours import PickColours, pick_colours
-from seiswidgets.geology.picks import FAULT, HORIZON, Interpretation
+from seiswidgets.geology.picks import FAULT, HORIZON, Fault, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.scenes import Scene, action, scenes
 from seiswidgets.interaction.colour import Colouring, RatioColouring
 from seiswidgets.interaction.live_state import TextureSource, colours_state, grid_state, stage_state, triangles_state
 from seiswidgets.interaction.overlay import Stroke
-from seiswidgets.interaction.projection import PaneProjection, side_of
+from seiswidgets.interaction.projection import PaneProjection, moved_off_fault, side_of
 from seiswidgets.interaction.ratio_axis import ratio_axis
 from seiswidgets.interaction.viewport import Viewport, Window
 
@@ -72,12 +72,20 @@ def _strokes(
 ) -> list[dict[str, Any]]:
     """The lines of all picks as a pane shows them, each pick with its name once."""
     looks = pick_colours(interpretation, colours)
-    picks = [(FAULT, fault.name, [fault.points]) for fault in interpretation.faults]
-    picks += [(HORIZON, horizon.name, list(horizon.pieces)) for horizon in interpretation.horizons]
+    picks = [(HORIZON, horizon.name, list(horizon.pieces)) for horizon in interpretation.horizons]
     picks += [(BODY, body.name, [np.append(body.points, body.points[:1], axis=0)]) for body in interpretation.bodies]
     pieces = [(kind, name, index, points) for kind, name, lines in picks for index, points in enumerate(lines)]
     shown = projection.lines([(points, side_of(kind, points)) for kind, _, _, points in pieces])
+    named = [(piece[:3], points) for piece, points in zip(pieces, shown, strict=True)]
+    named += [((FAULT, fault.name, 0), _fault_line(fault, projection)) for fault in interpretation.faults]
     return [
-        Stroke(points, looks[kind, name], label="" if index else name).state()
-        for (kind, name, index, _), points in zip(pieces, shown, strict=True)
+        Stroke(points, looks[kind, name], label="" if index else name).state() for (kind, name, index), points in named
     ]
+
+
+def _fault_line(fault: Fault, projection: PaneProjection) -> np.ndarray:
+    """A fault as a pane shows it, on one side of itself throughout: the browser moves it with that rock."""
+    restored = projection.restoration
+    lines = [fault.points] if restored is None else restored.carried(fault)
+    beside = [moved_off_fault(line, projection.view.pixel, side_of(FAULT, line)) for line in lines]
+    return np.concatenate([np.empty((0, 2)), *beside])
