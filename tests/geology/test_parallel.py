@@ -62,14 +62,20 @@ def test_a_cluster_changes_nothing(alone, cluster):
         assert same(run(executor=executor), alone)
 
 
+def is_worker(process):
+    try:
+        return "loky.backend.popen_loky_posix" in process.cmdline()
+    except psutil.NoSuchProcess:  # it has just ended, for another test perhaps
+        return False
+
+
 def test_killing_a_worker_in_the_middle_changes_nothing(alone):
     killed = []
 
     def kill_one(done, members):
-        workers = [child for child in psutil.Process().children() if "loky.backend.popen_loky_posix" in child.cmdline()]
         if done == 1 and not killed:
-            killed.append(workers[0])
-            workers[0].kill()
+            killed.append(next(child for child in psutil.Process().children() if is_worker(child)))
+            killed[0].kill()
 
     assert same(run(workers=2, progress=kill_one), alone)
     assert killed
