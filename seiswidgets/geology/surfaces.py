@@ -51,7 +51,7 @@ def surface_line(
     ends = [(min(x_min, inner[0, 0]) - reach, inner[0, 1]), (max(x_max, inner[-1, 0]) + reach, inner[-1, 1])]
     line = LineString([ends[0], *inner, ends[1]])
     if not line.is_simple:  # where pieces that were joined overlap by a little
-        line = LineString([ends[0], *_without_steps_back(inner, FAR * float(domain.cell[0])), ends[1]])
+        line = LineString([ends[0], *without_steps_back(inner, FAR * float(domain.cell[0])), ends[1]])
     if not line.is_simple:
         point = _overlap(line, segments)
         raise PickError(
@@ -81,7 +81,7 @@ def _joint(left: HorizonSegment, right: HorizonSegment, faults: Sequence[LineStr
     return shapely.get_coordinates(part)[1:-1]
 
 
-def _without_steps_back(points: np.ndarray, most: float) -> np.ndarray:
+def without_steps_back(points: np.ndarray, most: float) -> np.ndarray:
     """Leave out the points of a line that lie behind earlier ones, by no more than a distance."""
     behind = np.maximum.accumulate(points[:, 0]) - points[:, 0]
     return points[(behind == 0) | (behind > most)]

@@ -18,7 +18,7 @@ from seiswidgets.geology.observations import observe_bed
 from seiswidgets.geology.picks import HORIZON
 from seiswidgets.geology.stage import Stage
 from seiswidgets.geology.stratigraphy import Profile, profile_at
-from seiswidgets.geology.surfaces import surface_line
+from seiswidgets.geology.surfaces import FAR, surface_line, without_steps_back
 
 FLATTENINGS = LENGTH, VERTICAL_SHEAR = "length", "vertical shear"
 
@@ -50,7 +50,7 @@ def shear_flat_stage(
     """
     began = time.perf_counter()
     surface, notes = surface_line(name, pieces, faults, domain)
-    points = shapely.get_coordinates(surface)
+    points = without_steps_back(shapely.get_coordinates(surface), FAR * float(domain.cell[0]))
     back = np.flatnonzero(np.diff(points[:, 0]) < -1e-6 * domain.spacing)
     if len(back):
         raise PickError(

@@ -40,6 +40,7 @@ from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
 from seiswidgets.widgets.panels.hypotheses import HypothesesPanel
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList
+from seiswidgets.widgets.panels.stratigraphy import StratigraphyPanel
 from seiswidgets.widgets.panels.uncertainty import UncertaintyPanel
 from seiswidgets.widgets.panels.weight_sliders import WeightSliders
 from seiswidgets.widgets.picker import Picker
@@ -280,6 +281,7 @@ class RestorationApp(WithParts, VBox):
             Picks=lambda: self.picker.list,
             Weights=lambda: self.sliders,
             Steps=lambda: self.step_list,
+            Stratigraphy=lambda: StratigraphyPanel(workspace),
             Solver=lambda: self.solving,
             Display=lambda: DisplayControls(self.panes),
             Report=lambda: self.reports,

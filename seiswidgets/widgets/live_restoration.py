@@ -128,6 +128,7 @@ class LiveRestoration:
             self._restorer.cancel()
             self._draw(Snapshot.of(restoration), restoration)
         self._panes.restoration = restoration
+        self._timeline.ages = [stage.age for stage in restoration.stages]
         self._timeline.labels = [stage.kind for stage in restoration.stages]
         self._timeline.time = len(restoration.stages)
 

@@ -1,10 +1,11 @@
 """A slider with Play through the steps of a restoration."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import ceil
 from typing import Any
 
-from ipywidgets import HBox, IntSlider, Label, Layout, Play, jslink
+import numpy as np
+from ipywidgets import HTML, HBox, IntSlider, Label, Layout, Play, VBox, jslink
 from traitlets import Bunch, Float, List, Unicode, observe, validate
 
 from seiswidgets.errors import SettingError
@@ -13,6 +14,8 @@ from seiswidgets.widgets.key_guard import KeyGuard
 from seiswidgets.widgets.section_view.live_picture import FRAMES
 
 INTERVAL = 30  # ms between two frames
+TICKS = '<div style="position: relative; height: 14px; font-size: 10px; line-height: 14px" aria-hidden="true">{}</div>'
+TICK = '<span style="position: absolute; left: {:.2f}%; transform: translateX(-50%); white-space: nowrap">{}</span>'
 
 
 class Timeline(WithParts, HBox):
@@ -32,12 +35,16 @@ class Timeline(WithParts, HBox):
     ----------
     labels : list of str
         Names of the steps; when they change, time moves to the end.
+    ages : list of float or None
+        Ages after the steps, in Ma; empty if they have none. Set them before the labels.
     time : float
         From 0, the present day, to the number of steps; may be set.
+    age : float or None
+        The time in Ma; it runs evenly over the steps of one age.
     moment : str
         The time in words.
-    play, slider, text : Play, IntSlider, Label
-        The controls.
+    play, slider, ticks, text : Play, IntSlider, HTML, Label
+        The controls; the ticks show the ages.
 
     Raises
     ------
@@ -46,7 +53,9 @@ class Timeline(WithParts, HBox):
     """
 
     labels = List(Unicode())
+    ages: List[Any] = List(Float(allow_none=True))
     time = Float()
+    age = Float(None, allow_none=True)
     moment = Unicode()
 
     def __init__(self, labels: Iterable[str] = (), **settings: Any):
@@ -66,7 +75,9 @@ class Timeline(WithParts, HBox):
         self.text = Label(layout=Layout(flex="0 0 auto", min_width="104px"))
         self._link = jslink((self.play, "value"), (self.slider, "value"))
         self.slider.observe(self._take_slider, "value")
-        super().__init__([KeyGuard(), self.play, self.slider, self.text])
+        self.ticks = HTML(layout=Layout(display="none", margin="0 0 0 44px"))
+        track = VBox([self.slider, self.ticks], layout=Layout(flex="1 1 auto", min_width="0"))
+        super().__init__([KeyGuard(), self.play, track, self.text])
         self._take_labels()
         self.labels = list(labels)
         for name, value in settings.items():
@@ -89,6 +100,7 @@ class Timeline(WithParts, HBox):
         self.time = float(count)
         for control in (self.play, self.slider):
             control.max = end
+        self._show_ticks()
         self._show_moment()
 
     @observe("time")
@@ -102,7 +114,33 @@ class Timeline(WithParts, HBox):
             self.time = change.new / FRAMES
 
     def _show_moment(self) -> None:
-        self.moment = self.text.value = _moment(self.time, self.labels)
+        self.age = age_at(self.time, self.ages) if len(self.ages) == len(self.labels) else None
+        when = "" if self.age is None else f"{self.age:.4g} Ma · "
+        self.moment = self.text.value = when + _moment(self.time, self.labels)
+
+    def _show_ticks(self) -> None:
+        last = last_of_each_age(self.ages) if len(self.ages) == len(self.labels) else {}
+        self.ticks.layout.display = "" if last else "none"
+        self.ticks.value = TICKS.format(
+            "".join(TICK.format(100 * count / len(self.labels), f"{age:.4g}") for age, count in last.items())
+        )
+
+
+def last_of_each_age(ages: Sequence[float | None]) -> dict[float, int]:
+    """Number of steps carried out at each age, the present day included; empty if a step has no age."""
+    if not ages or None in ages:
+        return {}
+    return {0.0: 0} | {age: count for count, age in enumerate(ages, 1) if age is not None}
+
+
+def age_at(time: float, ages: Sequence[float | None]) -> float | None:
+    """Age at a time in steps, in Ma; None if a step has none."""
+    last = last_of_each_age(ages)
+    if not last:
+        return None
+    counts = sorted(last.values())
+    by_count = {count: age for age, count in last.items()}
+    return float(np.interp(time, counts, [by_count[count] for count in counts]))
 
 
 def _frame(time: float) -> int:

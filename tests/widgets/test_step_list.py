@@ -206,3 +206,26 @@ def test_what_is_no_step_is_refused(steps):
 def test_every_button_says_what_it_does(steps):
     row = rows(steps)[0]
     assert all(button.icon and button.tooltip for button in (row.up, row.down, row.remove, *adders(steps)))
+
+
+def test_steps_through_time_show_what_they_need(steps):
+    steps.steps = (
+        sw.Step("strip", ("H1",), age=5.0),
+        sw.Step("unerode", datum=-100.0),
+        sw.Step("decompact", age=5.0),
+        sw.Step("flatten", ("H1",), [(0, 10), (9, 30)], by="vertical shear", age=5.0),
+    )
+    shown = [
+        [name for name in ("choice", "datum", "beyond", "by", "age") if getattr(row, name).layout.display != "none"]
+        for row in rows(steps)
+    ]
+    assert shown == [["choice", "age"], ["datum", "age"], ["age"], ["choice", "datum", "by", "age"]]
+    rows(steps)[2].age.value = "6.5"
+    assert steps.steps[2].age == 6.5
+    rows(steps)[2].age.value = "old"
+    assert "age must be a finite number" in rows(steps)[2].error.value
+    rows(steps)[1].datum.value = ""
+    assert "-100 ms is kept" in rows(steps)[1].error.value
+    assert steps.steps[3].datum == ((0, 10), (9, 30))
+    steps.add_buttons["strip"].click()
+    assert steps.steps[-1] == sw.Step("strip")

@@ -15,11 +15,16 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.beyond import FREE, KEEP, LEVEL, TREND
 from seiswidgets.geology.picks import Fault, Horizon, Interpretation
 from seiswidgets.geology.plan import Plan
-from seiswidgets.geology.steps import FLATTEN, UNFAULT, Step
+from seiswidgets.geology.stage import STRIP, UNERODE
+from seiswidgets.geology.steps import FLATTEN, KINDS, UNFAULT, Step
+from seiswidgets.geology.vertical_shear import LENGTH, VERTICAL_SHEAR
 from seiswidgets.widgets.closing import WithParts
 from seiswidgets.widgets.key_guard import KeyGuard
 
-ALL = {UNFAULT: "all faults", FLATTEN: "first horizon"}  # what a step without picks works on
+ALL = {UNFAULT: "all faults", FLATTEN: "first horizon", STRIP: "first horizon"}  # what a step without picks works on
+ADDED = {kind: Step(kind, datum=0.0 if kind == UNERODE else None) for kind in KINDS}
+WITH_DATUM = (FLATTEN, UNERODE)
+SHEARS = {LENGTH: "keep its length", VERTICAL_SHEAR: "vertical shear"}
 BEYOND_ENDS = {
     FREE: "the rest turns with it",
     KEEP: "keep: the rest stays",
@@ -41,7 +46,7 @@ class StepRow(VBox):
         Faults and horizons to choose from.
     z_unit : str
         Unit of the datum.
-    enabled, choice, datum, beyond : Checkbox, Dropdown, Text, Dropdown
+    enabled, choice, datum, beyond, by, age : Checkbox, Dropdown, Text, Dropdown, Dropdown, Text
     up, down, remove : Button
         Buttons that the list acts on.
     error : HTML
@@ -71,13 +76,29 @@ class StepRow(VBox):
             style={"description_width": "initial"},
             layout=Layout(width="auto"),
         )
+        self.by = Dropdown(
+            options=[(label, choice) for choice, label in SHEARS.items()],
+            tooltip="How the horizon is brought to its level",
+            layout=Layout(width="140px"),
+        )
+        self.age = Text(
+            placeholder="age",
+            description="Ma",
+            tooltip="Age of the section after this step, in Ma; may be empty",
+            continuous_update=False,
+            style={"description_width": "initial"},
+            layout=Layout(width="100px"),
+        )
         self.error = HTML(layout=Layout(display="none"))
         self.up, self.down, self.remove = (_button(name) for name in ICONS)
         self.enabled.observe(lambda change: self._change(on=change.new), "value")
         self.choice.observe(lambda change: self._change(picks=change.new), "value")
         self.datum.observe(self._take_datum, "value")
         self.beyond.observe(lambda change: self._change(beyond=change.new), "value")
-        controls = [self.enabled, self.choice, self.datum, self.beyond, self.up, self.down, self.remove]
+        self.by.observe(lambda change: self._change(by=change.new), "value")
+        self.age.observe(self._take_age, "value")
+        fields = [self.enabled, self.choice, self.datum, self.by, self.beyond, self.age]
+        controls = [*fields, self.up, self.down, self.remove]
         line = HBox(controls, layout=Layout(flex_flow="row wrap"))
         super().__init__([line, self.error], step=step, interpretation=interpretation, z_unit=z_unit)
 
@@ -86,6 +107,11 @@ class StepRow(VBox):
 
     def _take_datum(self, change: Bunch) -> None:
         text = change.new.strip()
+        if text == _datum_value(self.step):
+            return
+        if not text and self.step.kind == UNERODE:
+            self._show_error(f"Unerode needs a depth. {self._datum_text()} is kept.")
+            return
         try:
             datum = validation.finite_number("datum", text) if text else None
         except SettingError as error:
@@ -93,6 +119,16 @@ class StepRow(VBox):
         else:
             self._show_error("")
             self._change(datum=datum)
+
+    def _take_age(self, change: Bunch) -> None:
+        text = change.new.strip()
+        try:
+            age = validation.finite_number("age", text) if text else None
+        except SettingError as error:
+            self._show_error(f"{error}; leave it empty if it is not known.")
+        else:
+            self._show_error("")
+            self._change(age=age)
 
     def _datum_text(self) -> str:
         return "The mean level" if self.step.datum is None else f"{_datum_value(self.step)} {self.z_unit}"
@@ -106,15 +142,29 @@ class StepRow(VBox):
         self.enabled.description, self.enabled.value = self.step.kind, self.step.on
         self._offer_picks()
         self.datum.description = f"datum ({self.z_unit})"
-        self.datum.layout.display = self.beyond.layout.display = "" if self.step.kind == FLATTEN else "none"
-        self.beyond.value = self.step.beyond
+        kind, is_flat = self.step.kind, self.step.kind == FLATTEN
+        in_time = self.step.age is not None or kind not in (UNFAULT, FLATTEN)
+        shown = {
+            self.choice: kind in ALL,
+            self.datum: kind in WITH_DATUM,
+            self.beyond: is_flat and self.step.by == LENGTH,
+            self.by: is_flat and (in_time or self.step.by != LENGTH),
+            self.age: in_time,
+        }
+        for control, is_shown in shown.items():
+            control.layout.display = "" if is_shown else "none"
+        self.beyond.value, self.by.value = self.step.beyond, self.step.by
         if change.name == "step" and change.new != change.old:  # else a datum may be half typed
             self.datum.value = _datum_value(self.step)
+            self.datum.placeholder = "profile" if isinstance(self.step.datum, tuple) else "mean level"
+            self.age.value = "" if self.step.age is None else _exact(self.step.age)
             self._show_error("")
 
     def _offer_picks(self) -> None:
         """Offer the picks to choose from, and the step's own choice even if those picks are missing."""
         step, all_picks = self.step, self.interpretation
+        if step.kind not in ALL:
+            return
         picks: Iterable[Fault | Horizon] = all_picks.faults if step.kind == UNFAULT else all_picks.horizons
         names = [pick.name for pick in picks]
         options = [(ALL[step.kind], ()), *((name, (name,)) for name in names)]
@@ -169,8 +219,9 @@ class StepList(WithParts, VBox):
         self.check_settings(settings)
         self._rows: list[StepRow] = []  # spare ones of removed steps included
         self._table = VBox()
-        self.add_buttons = {kind: _add_button(kind, self._add) for kind in (UNFAULT, FLATTEN)}
-        super().__init__([KeyGuard(), self._table, HBox(list(self.add_buttons.values()))], **settings)
+        self.add_buttons = {kind: _add_button(kind, self._add) for kind in KINDS}
+        adders = HBox(list(self.add_buttons.values()), layout=Layout(flex_flow="row wrap"))
+        super().__init__([KeyGuard(), self._table, adders], **settings)
         self.steps = Plan().steps if steps is None else tuple(steps)
 
     @property
@@ -214,7 +265,7 @@ class StepList(WithParts, VBox):
             self.steps = (*self.steps[:index], row.step, *self.steps[index + 1 :])
 
     def _add(self, kind: str) -> None:
-        self.steps = (*self.steps, Step(kind))
+        self.steps = (*self.steps, ADDED[kind])
 
     def _move(self, row: StepRow, offset: int) -> None:
         index = self._rows.index(row)
