@@ -10,7 +10,7 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-GROUPS = ["imports", "pictures", "solvers", "arap", "growth", "flips", "drawings", "scan", "browser"]
+GROUPS = ["imports", "pictures", "solvers", "arap", "growth", "flips", "drawings", "scan", "ensembles", "browser"]
 COLUMNS = ["what", "ours", "peer or bound", "ratio", "target", "met", "runs"]
 WIDTHS = [58, 12, 16, 9, 10, 4, 4]
 
