@@ -1,8 +1,9 @@
 """The app in a browser: how soon it is painted, how long a drag waits for its picture, what zooming sends.
 
-JupyterLab and Chromium run on this machine; there is no network in between.
+JupyterLab and Chromium run on this machine; there is no network in between, but once a slow one is imitated.
 """
 
+import copy
 import re
 import shutil
 import tempfile
@@ -10,11 +11,13 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
+from slow_link import slow_link
 from timing import at_most, told
 
 WIDE, HIGH = 2080, 1300  # css pixels of the window: each pane's plot area is then about 900 by 600
 FIRST, MEDIAN, P95, CANCEL = 1.5, 0.06, 0.09, 0.3  # seconds
 DRAG_RATE, PLAY_RATE = 12, 30  # pictures a second
+SLOW_MEDIAN, SLOW_RATE = 0.25, 8  # the same on a slow link
 MEMORY, STEP = 400, 2048  # megabytes that a large section adds, bytes that a step of the wheel sends
 DRAGS, RUNS, STEPS = 60, 5, 20
 PAUSE = 100  # ms between two steps
@@ -40,10 +43,12 @@ app = sw.RestorationApp(section, height=652)
 app
 """
 WATCH = """() => {
-  const draw = CanvasRenderingContext2D.prototype.putImageData;
-  const plots = () => [...document.querySelectorAll("canvas.seiswidgets-plot")];
+  const isWatched = window.pictures !== undefined;
   window.painted = [0, 0];
   window.pictures = [[], []];
+  if (isWatched) return;
+  const draw = CanvasRenderingContext2D.prototype.putImageData;
+  const plots = () => [...document.querySelectorAll("canvas.seiswidgets-plot")];
   CanvasRenderingContext2D.prototype.putImageData = function (...given) {
     const number = plots().indexOf(this.canvas);
     if (number >= 0) requestAnimationFrame(() => {
@@ -98,6 +103,7 @@ def rows():
             yield from drags(open_notebook, case)
         yield from continuous_drag(open_notebook)
         yield from playing(open_notebook)
+        yield from far_away(open_notebook)
         yield from cancelling(open_notebook)
         yield from wheel(open_notebook)
         yield from memory(open_notebook)
@@ -117,11 +123,15 @@ def browser():
             server.wait()
 
             def open_notebook(*cells):
-                opened = Notebook(server, chromium)
+                through = copy.copy(server)
+                through.port = link.port
+                opened = Notebook(through, chromium)
                 opened.open(server.write(cells), width=WIDE, height=HIGH)
+                opened.slow_down = link.slow_down
                 return opened
 
-            yield open_notebook
+            with slow_link(server.port) as link:
+                yield open_notebook
         finally:
             chromium.close()
             server.end()
@@ -142,8 +152,21 @@ def first_paint(open_notebook):
 def drags(open_notebook, case):
     """A vertex of a horizon is dragged step by step, each when the last one's picture is there."""
     opened = settled(open_notebook(APP.format(case=case)))
+    what = picture_of(opened, case)
+    waits = dragged(opened)
+    opened.close()
+    yield in_time(f"{what}, median", np.median(waits), MEDIAN, DRAGS)
+    yield in_time("  the same, 95th percentile", np.percentile(waits, 95), P95, DRAGS)
+
+
+def picture_of(opened, case):
     vertices = opened.ask("[len(stage.vertices) for stage in app.restoration.stages]")
     wide, high = opened.ask("app.panes.restored.view.size.tolist()")
+    return f"{case.replace('_', ' ')} of {max(vertices):,} vertices at {wide:.0f} x {high:.0f}: from drag to picture"
+
+
+def dragged(opened):
+    """Seconds from each step of a drag to its picture."""
     x, y = vertex(opened)
     opened.page.evaluate(WATCH)
     opened.page.mouse.move(x, y)
@@ -154,15 +177,18 @@ def drags(open_notebook, case):
         waits.append(opened.page.evaluate(NEXT) / 1000)
         opened.page.wait_for_timeout(PAUSE)
     opened.page.mouse.up()
-    opened.close()
-    what = f"{case.replace('_', ' ')} of {max(vertices):,} vertices at {wide:.0f} x {high:.0f}: from drag to picture"
-    yield in_time(f"{what}, median", np.median(waits), MEDIAN, DRAGS)
-    yield in_time("  the same, 95th percentile", np.percentile(waits, 95), P95, DRAGS)
+    return waits
 
 
 def continuous_drag(open_notebook):
     """A vertex of a horizon is dragged to and fro, without waiting for pictures."""
     opened = settled(open_notebook(APP.format(case="faulted_fold")))
+    rate = rate_of_drag(opened)
+    opened.close()
+    yield fast_enough("a continuous drag: restored pictures a second", rate, DRAG_RATE)
+
+
+def rate_of_drag(opened):
     x, y = vertex(opened)
     opened.page.evaluate(WATCH)
     opened.page.mouse.move(x, y)
@@ -172,8 +198,21 @@ def continuous_drag(open_notebook):
         opened.page.wait_for_timeout(16)
     rate = pictures_a_second(opened)
     opened.page.mouse.up()
+    return rate
+
+
+def far_away(open_notebook):
+    """The same drags over a link of 100 ms round trip and 5 Mbit/s."""
+    opened = settled(open_notebook(APP.format(case="faulted_fold")))
+    opened.slow_down()
+    waits = dragged(opened)
+    what = "over a link of 100 ms and 5 Mbit/s: from drag to picture, median"
+    yield in_time(what, np.median(waits), SLOW_MEDIAN, DRAGS)
+    opened.ask("app.wait(60)")
+    opened.page.wait_for_timeout(1500)
+    rate = rate_of_drag(opened)
     opened.close()
-    yield fast_enough("a continuous drag: restored pictures a second", rate, DRAG_RATE)
+    yield fast_enough("  a continuous drag: restored pictures a second", rate, SLOW_RATE)
 
 
 def playing(open_notebook):

@@ -205,8 +205,8 @@ class LinkedPanes(WithParts, VBox):
             if not snapshot.is_preview:
                 self.restored.section = snapshot.section
                 self._frame(snapshot, follow)
+                self._read_again()  # a preview follows the pointer, which is read after it
             self._show_badge(snapshot.verdict)
-            self._read_again()
 
     def show_moment(self, moment: Snapshot | None) -> bool:
         """Take gestures, and read values, at a moment of the restoration, which the browser shows by itself.

@@ -239,10 +239,11 @@ class Picker(WithParts, VBox):
         if self._drawn.get(pane) == shown:
             return
         self._drawn[pane] = shown
-        pane.draw_lines(strokes(state, projection), briefly=state.drag is not None)
         flagged = [flag for _, flag in flags(self._findings, projection)]
-        pane.draw_marks([*marks(state, projection, self.editor.cutoffs()), *flagged])
-        pane.rubber = rubber_band(state, projection)
+        with pane.layer.hold_sync():
+            pane.draw_lines(strokes(state, projection), briefly=state.drag is not None)
+            pane.draw_marks([*marks(state, projection, self.editor.cutoffs()), *flagged])
+            pane.rubber = rubber_band(state, projection)
 
     def _show_history(self, name: str, entry: Entry | None) -> None:
         _, action, keys = ACTIONS[name]
