@@ -86,7 +86,7 @@ def walk(page):
 def open_tab(page, name):
     """Open a tab of the app, and wait for the whole of its page, which is made when it is first looked at."""
     page.get_by_role("tab", name=name, exact=True).click()
-    shown = page.locator(".seiswidgets-pages > .widget-tab-contents > *").nth(TABS.index(name))
+    shown = page.locator(".seiswidgets-pages > .widget-tab-contents > *").locator("visible=true")
     shown.locator("*").nth(3).wait_for(state="attached")
     settled(shown.locator("*").count)
 

@@ -74,7 +74,7 @@ class StepRow(VBox):
             description="beyond its ends",
             tooltip="What happens to the rock beyond the ends of a horizon that does not cross the section",
             style={"description_width": "initial"},
-            layout=Layout(width="auto"),
+            layout=Layout(width="auto", min_width="0", max_width="100%"),
         )
         self.by = Dropdown(
             options=[(label, choice) for choice, label in SHEARS.items()],
