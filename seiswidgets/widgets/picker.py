@@ -315,14 +315,12 @@ class Picker(WithParts, VBox):
             description="± samples",
             tooltip="How far a vertex may move to snap",
             style={"description_width": "initial"},
-            layout=Layout(width="132px"),
+            layout=Layout(width="116px"),
         )
         for widget, name in ((modes, "mode"), (snap, "snap"), (window, "window"), (follow, "follow")):
             bind_control(self, name, widget)
         tools = [modes, HBox(list(self.buttons.values())), HBox([snap, window, follow])]
-        return Box(
-            tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 10px")
-        )
+        return Box(tools, layout=Layout(display="flex", flex_flow="row wrap", align_items="center", grid_gap="4px 6px"))
 
     def _begin_horizon(self) -> None:
         self.editor.enter(HORIZON)

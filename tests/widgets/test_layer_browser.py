@@ -330,3 +330,14 @@ def test_the_menu_opens_by_mouse_and_key_and_is_worked_by_keyboard(bare_layer):
     assert items.count() == 0
     layer.page.keyboard.press("Shift+F10")
     assert len(layer.sent("menu")) == 2
+
+
+def test_a_long_menu_reaches_beyond_its_pane_but_not_beyond_the_window(bare_layer):
+    layer = bare_layer()
+    labels = [f"Item {number}" for number in range(20)]
+    layer.page.locator(".seiswidgets-layer").evaluate("one => { one.parentElement.style.overflow = 'hidden'; }")
+    for x, y in ((5, 5), (500, 390)):
+        layer.page.evaluate("(menu) => model.receive(menu)", {"kind": "menu", "labels": labels, "x": x, "y": y})
+        box, window = layer.page.get_by_role("menu").bounding_box(), layer.page.viewport_size
+        assert box["height"] > 400
+        assert (box["x"], box["y"]) == (CORNER[0] + x, min(CORNER[1] + y, window["height"] - box["height"]))

@@ -287,9 +287,24 @@ function buttonOf({ button, pan }) {
   return pan ? { button, pan } : { button };
 }
 
+// shared/unscaled.js
+function unscaledSize(element) {
+  const { width, height } = getComputedStyle(element);
+  return { width: Number.parseFloat(width), height: Number.parseFloat(height) };
+}
+function unscaledPosition(event, element, { width, height }) {
+  const box = element.getBoundingClientRect();
+  return {
+    x: (event.clientX - box.left) * width / box.width,
+    y: (event.clientY - box.top) * height / box.height
+  };
+}
+
 // pointer_layer/menu.js
 function openMenu(el, labels, position, choose) {
-  el.querySelector(":scope > .menu")?.remove();
+  const open = el.querySelector(":scope > .menu");
+  if (open?.contains(document.activeElement)) document.activeElement.blur();
+  open?.remove();
   const menu = document.createElement("div");
   let isClosed = false;
   let isPressed = false;
@@ -336,10 +351,21 @@ function openMenu(el, labels, position, choose) {
   });
   menu.addEventListener("contextmenu", (event) => event.preventDefault());
   el.append(menu);
-  const { offsetWidth: width, offsetHeight: height } = el;
-  menu.style.left = `${Math.max(0, Math.min(position.x, width - menu.offsetWidth))}px`;
-  menu.style.top = `${Math.max(0, Math.min(position.y, height - menu.offsetHeight))}px`;
+  menu.popover = "manual";
+  menu.showPopover();
+  place(menu, el, position);
   items[0]?.focus({ preventScroll: true });
+}
+function place(menu, el, position) {
+  const [box, size] = [el.getBoundingClientRect(), menu.getBoundingClientRect()];
+  const scale = box.width / unscaledSize(el).width;
+  const zoom = (
+    /** @type {{ currentCSSZoom?: number }} */
+    menu.currentCSSZoom ?? 1
+  );
+  const [left, top] = [box.left + position.x * scale, box.top + position.y * scale];
+  menu.style.left = `${Math.max(0, Math.min(left, window.innerWidth - size.width)) / zoom}px`;
+  menu.style.top = `${Math.max(0, Math.min(top, window.innerHeight - size.height)) / zoom}px`;
 }
 
 // pointer_layer/throttle.js
@@ -1436,19 +1462,6 @@ function pathCoordinates(vertices, plotArea) {
   return [xs, ys];
 }
 
-// shared/unscaled.js
-function unscaledSize(element) {
-  const { width, height } = getComputedStyle(element);
-  return { width: Number.parseFloat(width), height: Number.parseFloat(height) };
-}
-function unscaledPosition(event, element, { width, height }) {
-  const box = element.getBoundingClientRect();
-  return {
-    x: (event.clientX - box.left) * width / box.width,
-    y: (event.clientY - box.top) * height / box.height
-  };
-}
-
 // pointer_layer/plot_area.js
 var MOST_ENLARGED = 4;
 var PlotArea = class {
@@ -1533,8 +1546,8 @@ function drawShade(image, shade, plotArea) {
   const [left, right, top, bottom] = shade.window;
   const [first, last] = [plotArea.toPixels(left, top), plotArea.toPixels(right, bottom)];
   if (image.getAttribute("href") !== shade.href) image.setAttribute("href", shade.href);
-  const place = { x: first.x, y: first.y, width: last.x - first.x, height: last.y - first.y, opacity: shade.opacity };
-  for (const [name, value] of Object.entries(place)) image.setAttribute(name, String(value));
+  const place2 = { x: first.x, y: first.y, width: last.x - first.x, height: last.y - first.y, opacity: shade.opacity };
+  for (const [name, value] of Object.entries(place2)) image.setAttribute(name, String(value));
 }
 
 // pointer_layer/near.js
@@ -1546,8 +1559,24 @@ function splitNear(line, centres, radius) {
     if (from && to) addSegment(parts, from, to, centres, radius);
     else for (const part of [parts.near, parts.far]) part.push(null);
   }
-  return parts;
+  return withoutShort(parts, 2 * radius);
 }
+function withoutShort({ near, far }, least) {
+  const runs = runsOf(far);
+  const isShort = (run) => lengthOf(run) < least && [run[0], run[run.length - 1]].every((end) => near.some((one) => isSame(one, end)));
+  const join = (kept) => kept.flatMap((run) => [...run, null]);
+  return { near: [...near, null, ...join(runs.filter(isShort))], far: join(runs.filter((run) => !isShort(run))) };
+}
+function runsOf(line) {
+  const runs = [];
+  line.forEach((point, i) => {
+    if (point && line[i - 1]) runs[runs.length - 1].push(point);
+    else if (point) runs.push([point]);
+  });
+  return runs;
+}
+var lengthOf = (run) => run.reduce((sum, { x, y }, i) => sum + (i ? Math.hypot(x - run[i - 1].x, y - run[i - 1].y) : 0), 0);
+var isSame = (one, other) => one !== null && one.x === other.x && one.y === other.y;
 function addSegment({ near, far }, from, to, centres, radius) {
   const at = (share) => ({
     x: from.x + share * (to.x - from.x),
@@ -1639,12 +1668,12 @@ function drawLabel(group, stroke, pixels, plotArea) {
   const label = appendText(group, "name", {}, stroke.label);
   label.style.fill = stroke.colour;
   togglePale(label, label, stroke.colour);
-  const { x, y } = labelPosition(start, lengthOf(label, stroke.label), plotArea);
+  const { x, y } = labelPosition(start, lengthOf2(label, stroke.label), plotArea);
   label.setAttribute("x", String(x));
   label.setAttribute("y", String(y));
 }
 var lengths = /* @__PURE__ */ new Map();
-function lengthOf(label, content) {
+function lengthOf2(label, content) {
   const length = lengths.get(content) ?? label.getComputedTextLength();
   if (length > 0) lengths.set(content, length);
   return length;

@@ -10,7 +10,14 @@ const line = (...points) => points.map((point) => point && { x: point[0], y: poi
 test("a line is split where it enters and leaves circles, also overlapping ones", () => {
   const across = line([0, 0], [100, 0]);
   assert.deepEqual(splitNear(across, [], 10), { near: [], far: across });
-  const { near, far } = splitNear(across, /** @type {any} */ (line([50, 0], [55, 0])), 10);
+  const { near, far } = splitNear(
+    across,
+    [
+      { x: 50, y: 0 },
+      { x: 55, y: 0 },
+    ],
+    10,
+  );
   assert.deepEqual([near[0], near.at(-1)], [line([40, 0])[0], null]);
   assert.deepEqual(far.filter(Boolean), line([0, 0], [40, 0], [65, 0], [100, 0]));
   assert.deepEqual(
@@ -19,10 +26,17 @@ test("a line is split where it enters and leaves circles, also overlapping ones"
   );
 });
 
+test("a short stretch between two circles is near, but not one that begins or ends the line", () => {
+  const centres = [30, 60].map((x) => ({ x, y: 0 }));
+  const { near, far } = splitNear(line([15, 0], [200, 0]), centres, 10);
+  assert.deepEqual(far.filter(Boolean), line([15, 0], [20, 0], [70, 0], [200, 0]));
+  assert.deepEqual(near.filter(Boolean).slice(-2), line([40, 0], [50, 0]));
+});
+
 test("the parts keep the vertices and the gaps of a line", () => {
   const { near, far } = splitNear(line([0, 0], [3, 4], null, [50, 0], [60, 0]), [{ x: 0, y: 0 }], 100);
   assert.deepEqual(far.filter(Boolean), []);
-  assert.deepEqual(near, line([0, 0], [3, 4], null, null, [50, 0], [60, 0]));
+  assert.deepEqual(near.filter(Boolean), line([0, 0], [3, 4], [50, 0], [60, 0]));
 });
 
 test("dots keep apart, but for the chosen one", () => {

@@ -1,5 +1,7 @@
 // The context menu of a pane: a list of actions at a point, worked by mouse, finger and keyboard.
 
+import { unscaledSize } from "../shared/unscaled.js";
+
 /**
  * Show a menu in place of the one that is open; it closes after a choice, on Escape, and when the focus leaves it.
  *
@@ -9,7 +11,9 @@
  * @param {(index: number) => void} choose
  */
 export function openMenu(el, labels, position, choose) {
-  el.querySelector(":scope > .menu")?.remove();
+  const open = el.querySelector(":scope > .menu");
+  if (open?.contains(document.activeElement)) /** @type {HTMLElement} */ (document.activeElement).blur(); // closes it
+  open?.remove();
   const menu = document.createElement("div");
   let isClosed = false;
   let isPressed = false; // a finger that has opened the menu by a long press is lifted over it
@@ -51,8 +55,24 @@ export function openMenu(el, labels, position, choose) {
   });
   menu.addEventListener("contextmenu", (event) => event.preventDefault());
   el.append(menu);
-  const { offsetWidth: width, offsetHeight: height } = el;
-  menu.style.left = `${Math.max(0, Math.min(position.x, width - menu.offsetWidth))}px`;
-  menu.style.top = `${Math.max(0, Math.min(position.y, height - menu.offsetHeight))}px`;
+  menu.popover = "manual"; // above everything, whatever clips the pane
+  menu.showPopover();
+  place(menu, el, position);
   items[0]?.focus({ preventScroll: true });
+}
+
+/**
+ * Put a menu at a position in an element, but inside the window.
+ *
+ * @param {HTMLElement} menu
+ * @param {HTMLElement} el
+ * @param {import("./types.js").Pixel} position
+ */
+function place(menu, el, position) {
+  const [box, size] = [el.getBoundingClientRect(), menu.getBoundingClientRect()];
+  const scale = box.width / unscaledSize(el).width; // of the page
+  const zoom = /** @type {{ currentCSSZoom?: number }} */ (menu).currentCSSZoom ?? 1;
+  const [left, top] = [box.left + position.x * scale, box.top + position.y * scale];
+  menu.style.left = `${Math.max(0, Math.min(left, window.innerWidth - size.width)) / zoom}px`;
+  menu.style.top = `${Math.max(0, Math.min(top, window.innerHeight - size.height)) / zoom}px`;
 }

@@ -4,7 +4,7 @@
 /** @typedef {(Pixel | null)[]} Line interrupted by nulls */
 
 /**
- * Split a line where it enters and leaves circles.
+ * Split a line where it enters and leaves circles. Stretches that are short and lie between two circles count as near.
  *
  * @param {Line} line
  * @param {Pixel[]} centres
@@ -20,8 +20,46 @@ export function splitNear(line, centres, radius) {
     if (from && to) addSegment(parts, from, to, centres, radius);
     else for (const part of [parts.near, parts.far]) part.push(null);
   }
-  return parts;
+  return withoutShort(parts, 2 * radius);
 }
+
+/**
+ * @param {{ near: Line, far: Line }} parts
+ * @param {number} least length
+ * @returns {{ near: Line, far: Line }}
+ */
+function withoutShort({ near, far }, least) {
+  const runs = runsOf(far);
+  const isShort = (/** @type {Pixel[]} */ run) =>
+    lengthOf(run) < least && [run[0], run[run.length - 1]].every((end) => near.some((one) => isSame(one, end)));
+  const join = (/** @type {Pixel[][]} */ kept) => kept.flatMap((run) => [...run, null]);
+  return { near: [...near, null, ...join(runs.filter(isShort))], far: join(runs.filter((run) => !isShort(run))) };
+}
+
+/**
+ * The stretches between the gaps of a line.
+ *
+ * @param {Line} line
+ */
+function runsOf(line) {
+  /** @type {Pixel[][]} */
+  const runs = [];
+  line.forEach((point, i) => {
+    if (point && line[i - 1]) runs[runs.length - 1].push(point);
+    else if (point) runs.push([point]);
+  });
+  return runs;
+}
+
+/** @param {Pixel[]} run */
+const lengthOf = (run) =>
+  run.reduce((sum, { x, y }, i) => sum + (i ? Math.hypot(x - run[i - 1].x, y - run[i - 1].y) : 0), 0);
+
+/**
+ * @param {Pixel | null} one
+ * @param {Pixel} other
+ */
+const isSame = (one, other) => one !== null && one.x === other.x && one.y === other.y;
 
 /**
  * @param {{ near: Line, far: Line }} parts
