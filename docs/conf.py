@@ -4,6 +4,7 @@ import inspect
 import os
 from pathlib import Path
 
+from matplotlib.figure import Figure
 from traitlets import HasTraits
 
 import seiswidgets
@@ -35,8 +36,6 @@ numpydoc_show_class_members = False
 autodoc_default_options = {"members": True, "member-order": "bysource"}
 autodoc_typehints = "none"  # the docstrings give types, shapes and units
 
-HANDOUTS = ("faulted_fold", "domino", "thrust")  # names of synthetic sections
-
 html_theme = "furo"
 html_title = "seiswidgets"
 html_static_path = ["static"]
@@ -62,16 +61,32 @@ def widget_signature(app, what, name, documented, options, signature, return_ann
 
 
 def write_handouts(app):
-    """Write the pages that the gallery shows."""
+    """Write the pages and the picture that the gallery shows."""
     folder = Path(app.outdir) / "handouts"
     folder.mkdir(parents=True, exist_ok=True)
-    for name in HANDOUTS:
+    for name, restore in HANDOUTS.items():
         case = getattr(seiswidgets.synthetic, name)()
-        picks = case.interpretation
-        restored = seiswidgets.Restoration(case.section).unfault(picks.faults, picks.horizons, fixed=case.fixed)
-        if name == "faulted_fold":
-            restored = restored.flatten(picks.horizon("H2"))
-        seiswidgets.save_html(restored, folder / f"{name}.html", picks)
+        restored = restore(case, case.interpretation)
+        seiswidgets.save_html(restored, folder / f"{name}.html", case.interpretation)
+        if hasattr(case, "stratigraphy"):
+            layers = {"stratigraphy": case.stratigraphy, "oldest_first": True}
+            story = seiswidgets.plot.storyboard(restored, case.interpretation, figure=Figure(), **layers)
+            story.savefig(folder / f"{name}.png", dpi=150)
+
+
+def unfaulted(case, picks):
+    """Unfault along all faults at once."""
+    return seiswidgets.Restoration(case.section).unfault(picks.faults, picks.horizons, fixed=case.fixed)
+
+
+HANDOUTS = {  # synthetic sections, and how each is restored
+    "faulted_fold": lambda case, picks: unfaulted(case, picks).flatten(picks.horizon("H2")),
+    "domino": unfaulted,
+    "thrust": unfaulted,
+    "half_graben": lambda case, picks: seiswidgets.Plan.sequential(case.stratigraphy, picks).restore(
+        case.section, picks
+    ),
+}
 
 
 ACCESSIBLE = {

@@ -2725,7 +2725,8 @@ var Timeline = class {
     if (frame === 0) return "present day";
     if (frame === end) return "restored";
     const step = Math.ceil(frame / FRAMES) - 1;
-    return `${names[step]} ${Math.round(100 * (frame - FRAMES * step) / FRAMES)}%`;
+    const percent = Math.round(100 * (frame - FRAMES * step) / FRAMES);
+    return percent === 100 ? names[step] : `${names[step]} ${percent}%`;
   }
   /** @param {number} frame */
   stopAt(frame) {
