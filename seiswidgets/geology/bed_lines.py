@@ -15,6 +15,7 @@ from seiswidgets.geology.segments import HorizonSegment, horizon_segments
 from seiswidgets.geology.transfer import carried_boundaries
 
 INSET = 1 / 20  # of the mesh spacing: what is left out beside a fault, whose edges in the mesh are chords of its curve
+BELOW = 0.2, 1.0  # samples below a line that rock was stripped down to, which is simplified
 FINE = 1 / 8  # of the mesh spacing: distance of the points that are carried
 
 
@@ -68,8 +69,13 @@ def _points(segment: HorizonSegment, spacing: float) -> np.ndarray:
 
 
 def _carried(points: np.ndarray, restored: Restoration) -> np.ndarray:
+    """The points after all stages; those of a bed that rock was stripped down to are taken from just below it."""
     for stage in restored.stages:
-        points = stage.map.forward(points)
+        moved = stage.map.forward(points)
+        for share in BELOW:
+            lost = ~np.isfinite(moved).all(axis=1)
+            moved[lost] = stage.map.forward(points[lost] + (0, share * stage.domain.sample))
+        points = moved
     return points
 
 

@@ -45,3 +45,14 @@ def test_gaps_of_the_picks_beside_a_fault_count_as_bed():
 def test_a_horizon_outside_the_section_has_no_extent():
     case = sw.synthetic.planar_fault()
     assert bed_extent(unfaulted(case), case.interpretation.faults, sw.Horizon([(9000, 100), (9900, 100)])) is None
+
+
+def test_a_bed_that_rock_was_stripped_down_to_is_measured_and_those_above_it_are_not():
+    case = sw.synthetic.faulted_fold()
+    picks = case.interpretation
+    restored = sw.Restoration(case.section).strip(picks.horizons[1], faults=picks.faults)
+    above, surface, below = (bed_extent(restored, picks.faults, horizon) for horizon in picks.horizons)
+    assert above is None
+    for extent in (surface, below):
+        np.testing.assert_allclose(extent.restored_length, extent.length, rtol=2e-3)
+        np.testing.assert_allclose(extent.restored_width, extent.width, rtol=1e-6)

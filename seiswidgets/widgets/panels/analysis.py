@@ -1,6 +1,7 @@
 """The app's tab Analysis: throw and growth of the faults, balance and extension, as a figure and as tables."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from html import escape
 from io import StringIO
 
@@ -13,6 +14,7 @@ from seiswidgets.geology.histories import extension_history
 from seiswidgets.geology.pick_colours import PickColours
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.stratigraphy import Stratigraphy
 from seiswidgets.geology.tables import Table
 from seiswidgets.widgets.jobs import Job, JobRunner
 from seiswidgets.widgets.messages import HINT, TROUBLE, in_words
@@ -22,6 +24,16 @@ from seiswidgets.widgets.workspace import Workspace
 PAUSE = 0.3  # seconds without an edit before anything is measured
 NO_CUTOFFS = HINT.format("No horizon meets a fault on both sides yet.")
 NOT_RESTORED = HINT.format("Nothing has been restored yet.")
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """What is measured, unaffected by later edits."""
+
+    restored: Restoration
+    picks: Interpretation
+    stratigraphy: Stratigraphy | None
+    colours: PickColours
 
 
 class Analysis(VBox):
@@ -61,8 +73,10 @@ class Analysis(VBox):
 
     def _measure(self, delay: float) -> None:
         workspace, make = self._workspace, PAGES[self.choice.value]
-        content = workspace.restoration, workspace.interpretation, workspace.drawing.colours
-        self._runner.submit(Job(lambda job: make(*content), self._show, self._fail), delay)
+        measured = Measured(
+            workspace.restoration, workspace.interpretation, workspace.plan.stratigraphy, workspace.drawing.colours
+        )
+        self._runner.submit(Job(lambda job: make(measured), self._show, self._fail), delay)
 
     def _show(self, page: str) -> None:
         self.page.value = page
@@ -71,26 +85,27 @@ class Analysis(VBox):
         self.page.value = TROUBLE.format(escape(in_words(error)))
 
 
-def _throw_page(restored: Restoration, picks: Interpretation, colours: PickColours) -> str:
-    table = fault_throws(restored.original, picks)
-    return _figure(table, colours) + table._repr_html_() if len(table) else NO_CUTOFFS
+def _throw_page(measured: Measured) -> str:
+    table = fault_throws(measured.restored.original, measured.picks, measured.stratigraphy)
+    return _figure(table, measured.colours) + table._repr_html_() if len(table) else NO_CUTOFFS
 
 
-def _growth_page(restored: Restoration, picks: Interpretation, colours: PickColours) -> str:
-    table = fault_growth(restored.original, picks)
+def _growth_page(measured: Measured) -> str:
+    table = fault_growth(measured.restored.original, measured.picks, measured.stratigraphy)
     return table._repr_html_() if len(table) else NO_CUTOFFS
 
 
-def _balance_page(restored: Restoration, picks: Interpretation, colours: PickColours) -> str:
-    if not restored.stages:
+def _balance_page(measured: Measured) -> str:
+    if not measured.restored.stages:
         return NOT_RESTORED
-    found = balance(restored, picks)
+    found = balance(measured.restored, measured.picks)
     remarks = [remark(one.severity, one.text, one.kind) for one in found.findings]
     return "".join([*remarks, *(table._repr_html_() for table in found.tables if len(table))])
 
 
-def _extension_page(restored: Restoration, picks: Interpretation, colours: PickColours) -> str:
-    return extension_history(restored, picks)._repr_html_() if restored.stages else NOT_RESTORED
+def _extension_page(measured: Measured) -> str:
+    restored = measured.restored
+    return extension_history(restored, measured.picks)._repr_html_() if restored.stages else NOT_RESTORED
 
 
 def _figure(table: Table, colours: PickColours) -> str:
@@ -111,7 +126,7 @@ def _figure(table: Table, colours: PickColours) -> str:
     )
 
 
-PAGES: dict[str, Callable[[Restoration, Interpretation, PickColours], str]] = {
+PAGES: dict[str, Callable[[Measured], str]] = {
     "Throw": _throw_page,
     "Growth": _growth_page,
     "Balance": _balance_page,
