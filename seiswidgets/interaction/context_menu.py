@@ -101,9 +101,12 @@ def _piece_items(
         items += [command(*copy, whole) for copy in copies]
     if pick.kind == BODY:
         return items
-    if vertex not in (0, len(pick.pieces[target.piece or 0]) - 1):
+    if vertex in (0, len(pick.pieces[target.piece or 0]) - 1):
+        longer = command("Extend this end to fault or border", extend, replace(target, vertex=vertex))
+    else:
         items.append(command("Split here", split_here, target))
-    return [*items, command("Extend to fault or border", extend), command("Reverse the line", reverse)]
+        longer = command("Extend to fault or border", extend)
+    return [*items, longer, command("Reverse the line", reverse)]
 
 
 def _end_items(editor: PickEditor, pick: Pick, vertex: int | None) -> list[Item]:

@@ -31,6 +31,11 @@ def menu(editor, point):
         ((425.0, 200.0), "Split here", lambda editor: editor.drawing.names("fault") == ("F1", "F2")),
         (FAULT[1], "Split here", lambda editor: pieces(editor, "F2") == (tuple(FAULT[1:]),)),
         (FAULT[1], "Extend to fault or border", lambda editor: pieces(editor)[0][0] == (375.0, 0.0)),
+        (
+            FAULT[0],
+            "Extend this end to fault or border",
+            lambda editor: pieces(editor) == (((375.0, 0.0), *FAULT),),
+        ),
         (FAULT[1], "Reverse the line", lambda editor: pieces(editor) == (tuple(FAULT[::-1]),)),
         (FAULT[0], "This end dies out here", lambda editor: editor.interpretation.faults[0].ends == ("tip", "auto")),
         (
