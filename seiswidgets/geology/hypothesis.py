@@ -1,6 +1,6 @@
 """Hypotheses: an interpretation of a section with a plan to restore it, and what slips and velocities change in it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -13,6 +13,9 @@ from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.steps import UNFAULT
 from seiswidgets.geology.validation import checked_kind
+
+Point = tuple[float, float]
+Level = float | tuple[Point, ...] | None
 
 FIRST_NAME = "A"  # of a section's only hypothesis
 
@@ -81,17 +84,15 @@ def _deepened(hypothesis: Hypothesis, factor: float) -> Hypothesis:
     section, picks, plan = hypothesis.section, hypothesis.interpretation, hypothesis.plan
     scale = np.array([1.0, factor])
 
-    def deeper(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+    def deeper(rows: Sequence[Point]) -> tuple[Point, ...]:
         return tuple((x, z * factor) for x, z in rows)
+
+    def deeper_level(level: Level) -> Level:
+        return None if level is None else level * factor if isinstance(level, int | float) else deeper(level)
 
     horizons = [
         Horizon(*(piece * scale for piece in pick.pieces), name=pick.name, use=pick.use) for pick in picks.horizons
     ]
-    steps = (
-        replace(step, datum=deeper(step.datum) if isinstance(step.datum, tuple) else step.datum and step.datum * factor)
-        for step in plan.steps
-    )
-    regional = plan.regional
     return replace(
         hypothesis,
         section=replace(section, dz=section.dz * factor, z0=section.z0 * factor),
@@ -102,9 +103,9 @@ def _deepened(hypothesis: Hypothesis, factor: float) -> Hypothesis:
         ),
         plan=replace(
             plan,
-            steps=tuple(steps),
-            fixed=deeper((plan.fixed,))[0] if plan.fixed else None,
+            steps=tuple(replace(step, datum=deeper_level(step.datum)) for step in plan.steps),
+            fixed=deeper([plan.fixed])[0] if plan.fixed else None,
             pins=deeper(plan.pins),
-            regional=regional * factor if isinstance(regional, float) else regional and deeper(regional),
+            regional=deeper_level(plan.regional),
         ),
     )

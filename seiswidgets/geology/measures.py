@@ -11,7 +11,8 @@ from seiswidgets.geology.cutoffs import cutoffs
 from seiswidgets.geology.picks import IGNORE, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
-from seiswidgets.geology.steps import UNFAULT
+from seiswidgets.geology.stage import Stage
+from seiswidgets.geology.steps import FLATTEN, UNFAULT
 
 THROW, HEAVE, SLIP, EXTENSION, BED_LENGTH = "throw", "heave", "slip", "extension", "bed length"
 BED_CHANGE, AREA_CHANGE, ROTATION, DEFORMATION = "bed change", "area change", "rotation", "deformation"
@@ -23,7 +24,7 @@ MEANING = {
     EXTENSION: "present-day over restored distance between a horizon's ends, less 1",
     BED_LENGTH: "length of a horizon after restoring",
     BED_CHANGE: "restored over present-day length of a horizon, less 1",
-    AREA_CHANGE: "restored over present-day area of the section, less 1",
+    AREA_CHANGE: "change of the section's area by unfaulting and flattening",
     ROTATION: "turn of a block by unfaulting, positive clockwise",
     DEFORMATION: "change of area that 98% of the rock stays below",
 }
@@ -67,10 +68,10 @@ def measure_restoration(restored: Restoration, interpretation: Interpretation) -
                 (BED_LENGTH, horizon.name): extent.restored_length,
                 (BED_CHANGE, horizon.name): extent.restored_length / extent.length - 1,
             }
-    first, last = restored.stages[0], restored.stages[-1]
-    found[AREA_CHANGE, ""] = last.outline.area / first.domain.outline.area - 1
-    found[DEFORMATION, ""] = largest_deformation(restored)
-    for stage in restored.stages:
+    solved = [stage for stage in restored.stages if stage.kind in (UNFAULT, FLATTEN)]
+    found[AREA_CHANGE, ""] = float(np.prod([stage.outline.area / stage.domain.outline.area for stage in solved])) - 1
+    found[DEFORMATION, ""] = _largest_deformation(solved)
+    for stage in solved:
         if stage.kind == UNFAULT:
             found |= {(SLIP, slip.fault): (slip.least + slip.most) / 2 for slip in stage.report.slips}
             for motion in stage.report.motions:
@@ -78,11 +79,11 @@ def measure_restoration(restored: Restoration, interpretation: Interpretation) -
     return found
 
 
-def largest_deformation(restored: Restoration) -> float:
+def _largest_deformation(stages: Sequence[Stage]) -> float:
     """The change of area, by any stage, that 98% of the rock stays below."""
     changes = [
         weighted_percentiles(np.exp(np.abs(np.log(stage.area_ratio))), stage.mesh.areas, (LARGEST,))[0] - 1
-        for stage in restored.stages
+        for stage in stages
     ]
     return float(max(changes, default=0.0))
 

@@ -2,6 +2,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+import shapely
 
 import seiswidgets as sw
 from seiswidgets.core.correlated_noise import noise_kernels
@@ -148,6 +149,20 @@ def test_the_peaks_of_a_scan_are_matches():
     choices = sw.Uncertainty(matches={"F1": scan}).choices["F1"]
     assert [profile for profile, _ in choices] == [peak.profile for peak in scan.peaks]
     assert sum(weight for _, weight in choices) == pytest.approx(1)
+
+
+def test_pieces_go_on_ending_at_their_faults():
+    """Where a fault moves by many traces, its horizons end at it all the same, and none crosses it."""
+    case = sw.synthetic.faulted_fold()
+    drawn = run(sw.Uncertainty(horizon=2, fault=4, dip=3), 1, case=case).study.perturbation
+    for index in range(20):
+        picks = drawn.hypothesis(index).interpretation
+        fault = shapely.LineString(picks.faults[0].points)
+        for horizon in picks.horizons:
+            left, right = map(shapely.LineString, horizon.pieces)
+            ends = shapely.Point(left.coords[-1]), shapely.Point(right.coords[0])
+            assert max(end.distance(fault) for end in ends) < 1e-6
+            assert all(piece.intersection(fault.buffer(1e-6)).length < 1e-3 for piece in (left, right))
 
 
 def test_depths_along_lines():

@@ -1,5 +1,6 @@
 """The result of an ensemble: percentiles, spreads, and which input matters."""
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,6 +17,7 @@ from seiswidgets.geology.measures import SHARES, Label, unit_of
 PERCENTS = (5.0, 50.0, 95.0)
 BAR, NARROW = 120, 0.05  # css pixels of an error bar's axis; share of that which a bar takes at least
 LISTED = 5  # reasons why members have no restoration
+NUMBER = re.compile(r"-?\d[\d.,]*")
 METHOD = "first-order shares of variance by linear regression on the numbers that drew each member"
 
 
@@ -117,16 +119,20 @@ class Ensemble:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """A finding for each reason why members have no restoration, the most frequent first."""
-        reasons: dict[str, list[int]] = {}
+        """A finding for each reason why members have no restoration, the most frequent first.
+
+        Reasons that differ in their numbers only, such as a position, are one.
+        """
+        reasons: dict[str, list[Member]] = {}
         for member in self.refused:
-            reasons.setdefault(member.problem, []).append(member.index)
-        ordered = sorted(reasons.items(), key=lambda item: -len(item[1]))
+            reasons.setdefault(NUMBER.sub("", member.problem), []).append(member)
+        ordered = sorted(reasons.values(), key=len, reverse=True)
+        count = len(self.members)
         return tuple(
             Finding(
-                "warning", "member", f"{len(indices)} of {len(self.members)} members, such as {indices[0]}: {reason}"
+                "warning", "member", f"{len(alike)} of {count} members, such as {alike[0].index}: {alike[0].problem}"
             )
-            for reason, indices in ordered
+            for alike in ordered
         )
 
     def rows(self) -> list[tuple[str, ...]]:

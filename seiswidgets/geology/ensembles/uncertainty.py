@@ -13,6 +13,7 @@ from shapely import LineString
 from seiswidgets.core.correlated_noise import noise_kernels
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
+from seiswidgets.geology.ensembles.piece_ends import PieceEnd, brought_to_faults, piece_ends
 from seiswidgets.geology.fault_lines import NEAR
 from seiswidgets.geology.hypothesis import Hypothesis, with_slip, with_velocity
 from seiswidgets.geology.picks import AUTO, EXTEND, Ends, Fault, Horizon, Interpretation, both_ends
@@ -141,8 +142,9 @@ class Perturbation:
         draw, picks = self.draw(index), self.drawn.interpretation
         horizon, turns = iter(self._errors("horizon", draw)), iter(np.radians(self.uncertainty.dip * draw["dip"]))
         fault = iter(self._errors("fault", draw))
-        horizons = [self._moved_horizon(pick, horizon) for pick in picks.horizons]
         faults = [self._moved_fault(pick, fault, next(turns)) for pick in picks.faults]
+        lines, ends = [pick.points for pick in faults], iter(self._piece_ends)
+        horizons = [self._moved_horizon(pick, horizon, ends, lines) for pick in picks.horizons]
         moved = replace(self.drawn, interpretation=Interpretation(faults, horizons, picks.bodies))
         chosen = {name: self.uncertainty.choices[name][k][0] for name, k in self._chosen(draw).items()}
         factor = float(np.exp(self.uncertainty.velocity * draw["velocity"][0]))
@@ -181,9 +183,14 @@ class Perturbation:
             start += len(numbers)
             yield line.points + deviation * (line.kernels @ numbers)[:, None] * line.across
 
-    def _moved_horizon(self, pick: Horizon, errors: Iterator[np.ndarray]) -> Horizon:
-        pieces = [next(errors) for _ in pick.pieces]
-        return Horizon(*pieces, name=pick.name, use=pick.use) if self.uncertainty.horizon else pick
+    def _moved_horizon(
+        self, pick: Horizon, errors: Iterator[np.ndarray], ends: Iterator[list[PieceEnd]], faults: list[np.ndarray]
+    ) -> Horizon:
+        moved = [next(errors) for _ in pick.pieces]
+        if not (self.uncertainty.horizon or self.uncertainty.fault or self.uncertainty.dip):
+            return pick
+        pieces = [brought_to_faults(piece, next(ends), faults, self._cell) for piece in moved]
+        return Horizon(*pieces, name=pick.name, use=pick.use)
 
     def _moved_fault(self, pick: Fault, errors: Iterator[np.ndarray], turn: float) -> Fault:
         points = next(errors)
@@ -200,7 +207,7 @@ class Perturbation:
         """The ends of a fault; one that nearly meets the border goes on meeting it, wherever it moves."""
         x_min, x_max, z_min, z_max = self.drawn.section.extent
         border = shapely.box(x_min, z_min, x_max, z_max)
-        cell = np.array([self.drawn.section.dx, self.drawn.section.dz])
+        cell = self._cell
 
         def end(choice: str, point: np.ndarray) -> str:
             at = shapely.Point(point)
@@ -210,6 +217,19 @@ class Perturbation:
 
         first, last = both_ends(fault.ends)
         return end(first, fault.points[0]), end(last, fault.points[-1])
+
+    @property
+    def _cell(self) -> np.ndarray:
+        """Distance between two traces and between two samples, in the section's units."""
+        return np.array([self.drawn.section.dx, self.drawn.section.dz])
+
+    @cached_property
+    def _piece_ends(self) -> list[list[PieceEnd]]:
+        """Ends at faults of all pieces of horizons."""
+        picks = self.drawn.interpretation
+        faults = [fault.points for fault in picks.faults]
+        pieces = (piece for pick in picks.horizons for piece in pick.pieces)
+        return [list(piece_ends(piece, faults, self._cell)) for piece in pieces]
 
     @cached_property
     def _horizons(self) -> list[NoisyLine]:
@@ -224,7 +244,7 @@ class Perturbation:
         section, length = self.drawn.section, self.uncertainty.correlation_length
         rock = shapely.get_coordinates(LineString(section.to_rock(points)).segmentize(length / DETAIL))
         arc_length = np.append(0, np.cumsum(np.hypot(*np.diff(rock, axis=0).T)))
-        points, cell = section.from_rock(rock), np.array([section.dx, section.dz])
+        points, cell = section.from_rock(rock), self._cell
         across = np.tile([0.0, 1.0], (len(points), 1))
         if not level:
             along = np.gradient(points / cell, axis=0)
