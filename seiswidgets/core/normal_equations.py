@@ -46,6 +46,10 @@ class Gram:
         return np.asarray(products)
 
 
+def _kinds(terms: Sequence[Term]) -> list[tuple[type, str]]:
+    return [(type(term), term.pattern) for term in terms]
+
+
 def _distinct(keys: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
     """The distinct keys in order, and the index of each key among them.
 
@@ -126,7 +130,7 @@ class NormalEquations:
         jacobians = {index: term.jacobian(vertices) for index, term in steady.items()}
         self._gram = {index: Gram(jacobian, self._unknown, self.size) for index, jacobian in jacobians.items()}
         self._constant = {index: jacobians[index] for index, term in steady.items() if term.pattern == CONSTANT}
-        self._kinds = [(type(term), term.pattern) for term in terms]
+        self._terms = terms
         self.factorisations = self.analyses = 0
         self._ordering: object = None
         keys = [gram.keys for gram in self._gram.values()]
@@ -142,11 +146,12 @@ class NormalEquations:
         If the terms are of other kinds, or other coordinates are free, the equations are made anew.
         """
         is_same = np.array_equal(np.flatnonzero(free), self._coordinates)
-        if not is_same or [(type(term), term.pattern) for term in terms] != self._kinds:
+        if not is_same or _kinds(terms) != _kinds(self._terms):
             return NormalEquations(terms, free, vertices)
-        self._constant = {index: terms[index].jacobian(vertices) for index in self._constant}
-        self._add_up_constant_terms()
-        self.factorisations = 0
+        if any(terms[index] is not self._terms[index] for index in self._constant):
+            self._constant = {index: terms[index].jacobian(vertices) for index in self._constant}
+            self._add_up_constant_terms()
+        self._terms, self.factorisations = terms, 0
         return self
 
     def _add_up_constant_terms(self) -> None:
@@ -192,9 +197,8 @@ class NormalEquations:
             entries = np.searchsorted(self._keys, gram.keys)
             self._values += self._add_up(entries, gram.products(moving[index].data))
             layouts.append((terms[index], gram, entries))
-        self._bent: list[tuple[Gram, np.ndarray, Layer]] = [
-            (gram, entries, layer) for term, gram, entries in layouts for layer in term.curvature(vertices)
-        ]
+        self._layouts, self._vertices = layouts, vertices
+        self._bent: list[tuple[Gram, np.ndarray, Layer]] | None = None  # until it is needed
 
     def _set_gradient(
         self, terms: Sequence[Term], vertices: np.ndarray, residuals: Sequence[np.ndarray]
@@ -250,6 +254,12 @@ class NormalEquations:
 
     def _bending(self, sign: int) -> np.ndarray:
         """Values of the convex (1) or concave (-1) part of the second derivatives."""
+        if self._bent is None:
+            self._bent = [
+                (gram, entries, layer)
+                for term, gram, entries in self._layouts
+                for layer in term.curvature(self._vertices)
+            ]
         values = np.zeros(len(self._keys))
         for gram, entries, (data, factor) in self._bent:
             values += self._add_up(entries, gram.products(data, sign * np.maximum(sign * factor, 0)))

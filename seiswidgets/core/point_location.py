@@ -119,19 +119,25 @@ def reduce_three(operation: np.ufunc, a: np.ndarray, b: np.ndarray, c: np.ndarra
 
 
 def triangle_at(vertices: np.ndarray, triangles: np.ndarray, point: np.ndarray) -> int:
-    """Index of a triangle that holds a point, -1 if none does; for a single point, faster than a finder.
+    """Index of a triangle that holds a point, shape (2,); -1 if none does."""
+    return int(triangles_at(vertices, triangles, point[None])[0])
+
+
+def triangles_at(vertices: np.ndarray, triangles: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Index of a triangle that holds each point, -1 where none does; for few points, faster than a finder.
 
     Parameters
     ----------
     vertices : array, shape (n, 2)
     triangles : array, shape (m, 3)
-    point : array, shape (2,)
+    points : array, shape (p, 2)
     """
     x0, z0, bx, bz, cx, cz = barycentric_coefficients(vertices[triangles]).T
-    x, z = point[0] - x0, point[1] - z0
+    x, z = points[:, :1] - x0, points[:, 1:] - z0
     b, c = bx * x + bz * z, cx * x + cz * z
     least = np.nan_to_num(reduce_three(np.minimum, 1 - b - c, b, c), nan=-np.inf)
-    return int(np.argmax(least)) if least.max() >= -TOLERANCE else -1
+    found = np.argmax(least, axis=1)
+    return np.where(least.max(axis=1) >= -TOLERANCE, found, -1)
 
 
 def twice_areas(corners: np.ndarray) -> np.ndarray:

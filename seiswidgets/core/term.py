@@ -1,6 +1,7 @@
 """The interface of the energy's terms."""
 
 from collections.abc import Sequence
+from dataclasses import fields, is_dataclass
 from typing import Protocol, Self, runtime_checkable
 
 import numpy as np
@@ -60,3 +61,16 @@ class PaperTerm(Term, Protocol):
 
     def target(self, vertices: np.ndarray) -> np.ndarray:
         """The lagged target that ``rows @ vertices`` is pulled to."""
+
+
+def same_terms(terms: Sequence[Term], earlier: Sequence[Term]) -> list[Term]:
+    """Terms, in the place of some the same ones of an earlier solution, which know their rows."""
+    return [next((known for known in earlier if _are_same(known, term)), term) for term in terms]
+
+
+def _are_same(one: Term, other: Term) -> bool:
+    """Return whether two terms have the same values; arrays must be the same objects."""
+    if type(one) is not type(other) or not is_dataclass(one):
+        return False
+    pairs = [(getattr(one, field.name), getattr(other, field.name)) for field in fields(one)]
+    return all(a is b or (isinstance(a, float | int | str) and a == b) for a, b in pairs)

@@ -9,7 +9,7 @@ from shapely import LineString
 
 from seiswidgets.core.interpolated import AtPoints, PointsInMesh
 from seiswidgets.core.mesh import Mesh, edge_keys
-from seiswidgets.core.point_location import TriangleFinder
+from seiswidgets.core.point_location import TriangleFinder, triangles_at
 from seiswidgets.core.term import Term
 from seiswidgets.core.terms import EdgeLength, Level
 from seiswidgets.core.triangulation import edges_along
@@ -168,7 +168,7 @@ def _bed_in(mesh: Mesh, lines: Sequence[LineString], earlier: Bed, spacing: floa
     chains = [shapely.get_coordinates(line.segmentize(spacing)) for line in lines]
     ends = np.cumsum([len(chain) for chain in chains])
     points, first = np.concatenate(chains), np.delete(np.arange(ends[-1]), ends - 1)
-    triangles = TriangleFinder(mesh.vertices, mesh.triangles)(points)
+    triangles = triangles_at(mesh.vertices, mesh.triangles, points)
     inside = triangles >= 0
     edges = np.column_stack([first, first + 1])
     edges = (np.cumsum(inside) - 1)[edges[inside[edges].all(axis=1)]]

@@ -9,7 +9,7 @@ import numpy as np
 from seiswidgets.core.mesh import Mesh, triangle_areas
 from seiswidgets.core.point_location import TriangleFinder
 from seiswidgets.core.solver import Progress, Solution, fixed_point, gauss_newton
-from seiswidgets.core.term import Term
+from seiswidgets.core.term import Term, same_terms
 from seiswidgets.errors import FlippedError, Keyword, SettingError
 from seiswidgets.geology import validation
 from seiswidgets.geology.domain import RestorationDomain
@@ -142,7 +142,9 @@ def minimise(
     limits = options.iteration_limit, options.progress
     if options.solver == GAUSS_NEWTON:
         free = _anchor(mesh) if adrift else free
-        equations = options.start.outcome.solution.equations if shares_mesh(options.start, mesh) else None
+        earlier = options.start.outcome.solution if shares_mesh(options.start, mesh) else None
+        equations = earlier.equations if earlier else None
+        terms = same_terms(terms, earlier.terms) if earlier else terms
         solution = gauss_newton(terms, mesh.triangles, start, free, SETTLED * domain.slack, *limits, equations)
         return solution if domain.quick else replace(solution, equations=None)  # which are large
     solution = fixed_point(terms, start, free, TOLERANCE * domain.spacing, *limits)
