@@ -727,3 +727,18 @@ def test_without_a_restoration_there_is_nothing_to_export(app, tmp_path):
     app.files.results.folder.value = str(tmp_path)
     with pytest.raises(SettingError, match="there is no result yet: restore first"):
         app.files.results.export()
+
+
+def test_the_storyboard_that_is_exported_has_the_layers_of_the_plan(restored, tmp_path, monkeypatch):
+    layers, told = sw.Stratigraphy([sw.Layer(None, 0.0), sw.Layer("H1", 5.0)]), []
+    restored.live = False
+    restored.workspace.change_plan("stratigraphy", stratigraphy=layers)
+    draw = result_files.plot.storyboard
+    monkeypatch.setattr(result_files.plot, "storyboard", lambda *all, **look: told.append(look) or draw(*all, **look))
+    results = restored.files.results
+    results.folder.value = str(tmp_path)
+    choose_results(results, "storyboard.png")
+    results.export()
+    assert results.wait(LONG)
+    assert [path.name for path in results.written] == ["faulted fold-storyboard.png"]
+    assert told[0]["stratigraphy"] is layers

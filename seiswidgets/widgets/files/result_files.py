@@ -16,6 +16,7 @@ from seiswidgets.errors import Text as Message
 from seiswidgets.geology.pick_colours import PickColours
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.stratigraphy import Stratigraphy
 from seiswidgets.io.exports.meshes import save_mesh
 from seiswidgets.io.exports.reports import save_report
 from seiswidgets.io.exports.sections import save_section
@@ -42,6 +43,7 @@ class Result:
     source: SectionSource | None
     colours: PickColours
     span: float
+    stratigraphy: Stratigraphy | None = None
 
 
 Writer = Callable[[Result, Path], None]
@@ -119,7 +121,14 @@ class ResultFiles(VBox):
             return
         self.written = ()
         shown = self._workspace
-        result = Result(shown.restoration, shown.interpretation, shown.source, shown.drawing.colours, self.span)
+        result = Result(
+            shown.restoration,
+            shown.interpretation,
+            shown.source,
+            shown.drawing.colours,
+            self.span,
+            shown.plan.stratigraphy,
+        )
         self.job.begin(partial(self._write, result, paths))
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -178,7 +187,8 @@ def _write_figure(result: Result, path: Path) -> None:
 def _write_storyboard(result: Result, path: Path) -> None:
     from matplotlib.figure import Figure
 
-    figure = plot.storyboard(result.restoration, result.interpretation, colours=result.colours, figure=Figure())
+    look = {"colours": result.colours, "stratigraphy": result.stratigraphy}
+    figure = plot.storyboard(result.restoration, result.interpretation, **look, figure=Figure())
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=DPI)
 
