@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import traitlets
@@ -37,11 +37,9 @@ from seiswidgets.widgets.names import Names
 from seiswidgets.widgets.offers import offers
 from seiswidgets.widgets.panels.analysis import Analysis
 from seiswidgets.widgets.panels.controls import DisplayControls, SolverControls
-from seiswidgets.widgets.panels.hypotheses import HypothesesPanel
 from seiswidgets.widgets.panels.reports import Reports
 from seiswidgets.widgets.panels.step_list import StepList
 from seiswidgets.widgets.panels.stratigraphy import StratigraphyPanel
-from seiswidgets.widgets.panels.uncertainty import UncertaintyPanel
 from seiswidgets.widgets.panels.weight_sliders import WeightSliders
 from seiswidgets.widgets.picker import Picker
 from seiswidgets.widgets.stage_strip import StageStrip
@@ -50,6 +48,10 @@ from seiswidgets.widgets.timeline import Timeline
 from seiswidgets.widgets.workspace import Workspace
 
 WORKING = ("analysis", "files", "hypotheses_panel", "uncertainty_panel")  # pages that work in the background
+if TYPE_CHECKING:
+    from seiswidgets.widgets.panels.hypotheses import HypothesesPanel
+    from seiswidgets.widgets.panels.uncertainty import UncertaintyPanel
+
 PATIENCE = 10.0  # seconds that a closing app waits for its threads to end
 
 
@@ -202,13 +204,17 @@ class RestorationApp(WithParts, VBox):
         return files
 
     @cached_property
-    def hypotheses_panel(self) -> HypothesesPanel:
+    def hypotheses_panel(self) -> "HypothesesPanel":
         """Page of the tab Hypotheses, made when it is first opened."""
+        from seiswidgets.widgets.panels.hypotheses import HypothesesPanel  # imports matplotlib's figures
+
         return HypothesesPanel(self.workspace)
 
     @cached_property
-    def uncertainty_panel(self) -> UncertaintyPanel:
+    def uncertainty_panel(self) -> "UncertaintyPanel":
         """Page of the tab Uncertainty, made when it is first opened."""
+        from seiswidgets.widgets.panels.uncertainty import UncertaintyPanel  # imports what runs processes
+
         panel = UncertaintyPanel(self.workspace, self.panes)
         panel.observe(lambda change: self.reports.show_errors(change.new), "ensemble")
         return panel
