@@ -152,7 +152,7 @@ class _Run:
                     if future in self._pending:  # else it was dropped with a broken pool
                         yield from self._collect(future)
         finally:
-            for future in self._pending:
+            for future in () if self._crew.is_own else self._pending:  # our own processes are ended
                 future.cancel()
 
     def _hand_over(self) -> None:

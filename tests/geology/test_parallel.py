@@ -125,6 +125,7 @@ def test_what_is_no_executor(executor):
         run(executor=executor)
 
 
-def test_cancelling_ends_the_processes():
+def test_cancelling_ends_the_processes(caplog):
     with pytest.raises(sw.Cancelled, match="after 1 of 6 members"):
         run(workers=1, progress=lambda done, members: done < 1)
+    assert not caplog.records
