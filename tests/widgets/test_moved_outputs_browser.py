@@ -42,9 +42,21 @@ def draws_where_it_is_seen(screen, plot, shares=SHARES):
     np.testing.assert_allclose(drawn, wanted, atol=0.002 * (right - left))
 
 
-def is_sharp(page):
+def is_sharp(page, ratio=1):
     """Wait until each picture has as many pixels as the screen gives it."""
-    settled(lambda: page.evaluate(PIXELS), lambda found: found and np.allclose(found, 1, atol=0.02))
+    settled(lambda: page.evaluate(PIXELS), lambda found: found and np.allclose(found, ratio, atol=0.02))
+
+
+def test_the_browser_zooms(open_app):
+    screen = open_app(FEW, "app.interpretation = sw.Interpretation()\n")
+    session = screen.page.context.new_cdp_session(screen.page)
+    metrics = {"width": 960, "height": 920, "deviceScaleFactor": 1.25, "mobile": False}
+    session.send("Emulation.setDeviceMetricsOverride", metrics)
+    try:
+        is_sharp(screen.page, 1.25)
+        draws_where_it_is_seen(screen, screen.plots.first)
+    finally:
+        session.send("Emulation.clearDeviceMetricsOverride")
 
 
 @pytest.mark.parametrize("scale", SCALES)

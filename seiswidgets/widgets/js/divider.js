@@ -13,13 +13,9 @@ function describe(el) {
   el.classList.add("seiswidgets-divider");
   el.tabIndex = 0;
   el.title = TOOLTIP;
-  const attributes = { role: "separator", "aria-orientation": "horizontal", "aria-label": LABEL };
-  for (const [name, value] of Object.entries(attributes)) el.setAttribute(name, value);
-  for (const [name, value] of [
-    ["aria-valuemin", "0"],
-    ["aria-valuemax", "100"],
-  ])
-    el.setAttribute(name, value);
+  el.role = "separator";
+  el.ariaOrientation = "horizontal";
+  [el.ariaLabel, el.ariaValueMin, el.ariaValueMax] = [LABEL, "0", "100"];
 }
 
 /** Shares the height of two boxes between them. */
@@ -78,14 +74,25 @@ function listenToPointer(el, sharing, set, signal) {
     },
     { signal },
   );
-  const shareAt = (/** @type {PointerEvent} */ event) =>
-    nearestShare(start.share + (event.clientY - start.y) / start.total, start.total);
-  el.addEventListener("pointermove", (event) => el.hasPointerCapture(event.pointerId) && set(shareAt(event), false), {
-    signal,
-  });
-  el.addEventListener("lostpointercapture", (event) => event.clientY !== start.y && set(shareAt(event), true), {
-    signal,
-  });
+  /** @type {number | null} */
+  let share = null; // null until the handle is moved
+  el.addEventListener(
+    "pointermove",
+    (event) => {
+      if (!el.hasPointerCapture(event.pointerId)) return;
+      share = nearestShare(start.share + (event.clientY - start.y) / start.total, start.total);
+      set(share, false);
+    },
+    { signal },
+  );
+  el.addEventListener(
+    "lostpointercapture",
+    () => {
+      if (share !== null) set(share, true);
+      share = null;
+    },
+    { signal },
+  );
   el.addEventListener("dblclick", () => set(null, true), { signal });
 }
 
@@ -130,7 +137,7 @@ function render({ model, el }) {
         "seiswidgets-narrow",
         box.offsetWidth < NARROW.app || document.documentElement.clientWidth < NARROW.window,
       );
-      el.setAttribute("aria-valuenow", String(Math.round(100 * own.share)));
+      el.ariaValueNow = String(Math.round(100 * own.share));
     };
     for (const one of [box, upper]) observer.observe(one);
     apply();

@@ -21,13 +21,9 @@ function describe(el) {
   el.classList.add("seiswidgets-divider");
   el.tabIndex = 0;
   el.title = TOOLTIP;
-  const attributes = { role: "separator", "aria-orientation": "horizontal", "aria-label": LABEL };
-  for (const [name, value] of Object.entries(attributes)) el.setAttribute(name, value);
-  for (const [name, value] of [
-    ["aria-valuemin", "0"],
-    ["aria-valuemax", "100"]
-  ])
-    el.setAttribute(name, value);
+  el.role = "separator";
+  el.ariaOrientation = "horizontal";
+  [el.ariaLabel, el.ariaValueMin, el.ariaValueMax] = [LABEL, "0", "100"];
 }
 var Sharing = class {
   /**
@@ -71,13 +67,24 @@ function listenToPointer(el, sharing, set, signal) {
     },
     { signal }
   );
-  const shareAt = (event) => nearestShare(start.share + (event.clientY - start.y) / start.total, start.total);
-  el.addEventListener("pointermove", (event) => el.hasPointerCapture(event.pointerId) && set(shareAt(event), false), {
-    signal
-  });
-  el.addEventListener("lostpointercapture", (event) => event.clientY !== start.y && set(shareAt(event), true), {
-    signal
-  });
+  let share = null;
+  el.addEventListener(
+    "pointermove",
+    (event) => {
+      if (!el.hasPointerCapture(event.pointerId)) return;
+      share = nearestShare(start.share + (event.clientY - start.y) / start.total, start.total);
+      set(share, false);
+    },
+    { signal }
+  );
+  el.addEventListener(
+    "lostpointercapture",
+    () => {
+      if (share !== null) set(share, true);
+      share = null;
+    },
+    { signal }
+  );
   el.addEventListener("dblclick", () => set(null, true), { signal });
 }
 function render({ model, el }) {
@@ -118,7 +125,7 @@ function render({ model, el }) {
         "seiswidgets-narrow",
         box.offsetWidth < NARROW.app || document.documentElement.clientWidth < NARROW.window
       );
-      el.setAttribute("aria-valuenow", String(Math.round(100 * own.share)));
+      el.ariaValueNow = String(Math.round(100 * own.share));
     };
     for (const one of [box, upper]) observer.observe(one);
     apply();
