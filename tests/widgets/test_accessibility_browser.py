@@ -18,7 +18,14 @@ gallery
 TABS = ("Picks", "Weights", "Steps", "Solver", "Display", "Report")
 APP = ".jp-OutputArea-output > .widget-vbox"
 PAGES = ROOT / "docs" / "_build" / "html"
-KINDS = ("docs/index", "docs/formats", "docs/api/widgets", "notebooks/01_restore_a_section", "CONTRIBUTING")
+KINDS = (
+    "docs/index",
+    "docs/gallery",
+    "docs/formats",
+    "docs/api/widgets",
+    "notebooks/01_restore_a_section",
+    "CONTRIBUTING",
+)
 
 
 def test_axe_finds_nothing_serious_in_the_app(notebook):

@@ -245,6 +245,7 @@ def test_axe_finds_nothing_and_nothing_sticks_out_at_any_width(handout):
             page.page.emulate_media(color_scheme=scheme)
             assert serious(page.page) == [], (width, scheme)
             assert page.page.evaluate("document.documentElement.scrollWidth") <= width
+    assert page.page.evaluate("async () => (await axe.run()).violations.map(({ id }) => id)") == []
 
 
 def test_nothing_restored_is_shown_too(handout, tmp_path):
