@@ -14,6 +14,7 @@ Seam = tuple[np.ndarray, np.ndarray]
 Positions = dict[int, float]  # along a polyline, in segments, by vertex
 
 # of the width that is closed: the distance of corners that crowd a mesh, and the change that removing one may make
+HAIRLINE = 1e-5, 1e-3  # of the width that is closed, on average
 CROWDED, DEVIATION = 2.5, 2e-3
 
 
@@ -182,7 +183,9 @@ def outline(
     closed = covered.buffer(closing, **style).buffer(-closing, **style)
     covered = _remove_specks(covered, (5 * closing) ** 2)
     gaps = shapely.get_parts(closed.difference(covered))
-    gaps = gaps[shapely.area(gaps) > (0.1 * closing) ** 2]  # smaller ones are rounding
+    area, length = shapely.area(gaps), closing * shapely.length(gaps)
+    hairline = (area > HAIRLINE[0] * length) & (area < HAIRLINE[1] * length)  # it could remain as a cut in the rock
+    gaps = gaps[hairline | (area > (0.1 * closing) ** 2)]  # others are rounding
     whole = shapely.union_all([covered, *gaps], grid_size=grid).simplify(1e-5 * closing)
     return _remove_crowded_corners(whole, CROWDED * closing, DEVIATION * closing)
 

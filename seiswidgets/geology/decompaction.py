@@ -91,17 +91,15 @@ class ColumnCompaction:
     stratigraphy: Stratigraphy
 
     @classmethod
-    def of(
-        cls, columns: Columns, x: np.ndarray, memory: BurialMemory, stratigraphy: Stratigraphy
-    ) -> "ColumnCompaction":
-        """Read the porosity of columns at x from what is remembered.
+    def of(cls, columns: Columns, memory: BurialMemory, stratigraphy: Stratigraphy) -> "ColumnCompaction":
+        """Read the porosity of columns from what is remembered.
 
         Where nothing is, as below the rock, burial grows with depth from what is known above.
         """
         depth = columns.nodes - columns.surface[:, None, None]
         rock = (columns.layer != WATER) & (columns.thickness > 0)
         inside = columns.nodes + INWARDS * columns.thickness[..., None] * [1, -1]
-        points = np.stack([np.broadcast_to(x[:, None, None], inside.shape), inside], axis=-1)[rock]
+        points = np.stack([np.broadcast_to(columns.x[:, None, None], inside.shape), inside], axis=-1)[rock]
         ends = memory(points.reshape(-1, 2)).reshape(-1, 2)
         middle, half = ends.mean(axis=1), np.diff(ends, axis=1)[:, 0] / (2 - 4 * INWARDS)
         burial = np.full(depth.shape, np.nan)
@@ -155,7 +153,8 @@ def decompact_stage(
 ) -> Stage:
     """Let rock expand to the porosity of its present depth below the top; the bottom of the section stays.
 
-    Where rock is missing at the bottom of a column, what lies there now counts as going on down.
+    Where a little rock is missing at the bottom of a column, what lies there now counts as going on down; where much is
+    missing, as at the end of a section whose blocks have moved away, the nearest whole column stands for it.
 
     Parameters
     ----------
@@ -172,10 +171,10 @@ def decompact_stage(
     mesh = domain.mesh(tops | {(FAULT, ""): layers.faults})
     x, z = mesh.vertices.T
     columns = layers.columns(x, z, PARTS).down_to(domain.outline.bounds[3])
-    compaction = ColumnCompaction.of(columns, x, memory, stratigraphy)
+    compaction = ColumnCompaction.of(columns, memory, stratigraphy)
     thickness, depth = compaction.expanded()
-    rise = _at_or_above(np.cumsum(thickness - columns.thickness, axis=1), columns.at)
-    grown = np.sum(thickness - columns.thickness, axis=1)
+    growth = np.cumsum(thickness - columns.thickness, axis=1)
+    rise, grown = _at_or_above(growth, columns.at), _growth_of_column(columns, growth)
     burial = np.minimum(_at_or_above(depth, columns.at), _at_or_above(compaction.burial[..., 1], columns.at))
     vertices = np.column_stack([x, z - (grown - rise)])
     observe = partial(_observe, mesh, vertices, layers, stratigraphy, memory, burial)
@@ -186,6 +185,20 @@ def decompact_stage(
 
 def _name(stratigraphy: Stratigraphy, index: int) -> str:
     return stratigraphy.layers[index].top or ""
+
+
+def _growth_of_column(columns: Columns, growth: np.ndarray) -> np.ndarray:
+    """Growth of the rock in each column and of what is missing below it, shape (n,); ``growth`` is cumulative."""
+    x, whole = columns.x, np.flatnonzero(columns.is_whole)
+    grown = growth[:, -1].copy()
+    if not len(whole):
+        return grown
+    order = whole[np.argsort(x[whole])]
+    for index in np.flatnonzero(~columns.is_whole):
+        nearest = order[np.argmin(np.abs(x[order] - x[index]))]
+        above = np.interp(columns.nodes[index, -1, 0], columns.nodes[nearest, :, 1], growth[nearest])
+        grown[index] = growth[index, -2] + growth[nearest, -1] - above
+    return grown
 
 
 def _at_or_above(values: np.ndarray, at: np.ndarray) -> np.ndarray:

@@ -11,9 +11,10 @@ from shapely.ops import substring
 
 from seiswidgets.core.curves import CORNER, along_curve, smooth_curve
 from seiswidgets.geology.domain import RestorationDomain
-from seiswidgets.geology.fault_lines import CLOSE, EDGES, Position
+from seiswidgets.geology.fault_lines import CLOSE, EDGES, Position, along_border
 from seiswidgets.geology.shared_stretches import shared_stretches
 
+MET = 5e-4  # of the mesh spacing: a corner so close to a fault becomes one with it in a mesh
 FINE = 3e-4  # of a sample: largest distance of a curve's points from the curve
 
 
@@ -29,11 +30,12 @@ def meshed_parts(
     """Divide a fault into edges short enough to slip along, with cut-offs, crossings and corners among their ends.
 
     A corner much closer than the mesh spacing to one of the others would make slivers, which hold a whole block. The
-    stretches that the fault shares with earlier ones are left out.
+    stretches that the fault shares with earlier ones, and scarps at its ends, are left out.
     """
     curve, step = curves[name], min(domain.spacing, curves[name].length / EDGES)
     parts = []
-    for part in _own_parts(name, curves, domain.sample):
+    own = [inner for part in _own_parts(name, curves, domain.sample) for inner in _below_scarps(part, domain)]
+    for part in own:
         touch = 1e-6 * curve.length
         points = [Point(point) for point in (*cutoffs, *fault_crossings(name, curves))]
         meetings = [part.project(point) for point in points if part.distance(point) <= touch]
@@ -41,6 +43,39 @@ def meshed_parts(
         corners = [at for at in _corners(part) if np.abs(taken - at).min() > CLOSE * domain.spacing]
         parts.append(along_curve(part, [*meetings, *corners], step))
     return parts
+
+
+def _below_scarps(part: LineString, domain: RestorationDomain) -> list[LineString]:
+    """A part of a fault without scarps at its ends, which are the border already, as far as a corner at their foot."""
+    scarps = along_border(part, domain)
+    if not scarps:
+        return [part]
+    corners = shapely.points(_turning_points(domain.outline))
+    start, stop = 0.0, part.length
+    for scarp in scarps:
+        ends = sorted(part.project(Point(scarp.coords[which])) for which in (0, -1))
+        is_first, is_last = ends[0] <= domain.sample, ends[1] >= part.length - domain.sample
+        foot = ends[1] if is_first else ends[0]
+        near = corners[shapely.dwithin(corners, part.interpolate(foot), 2 * domain.sample)]
+        at = [part.project(corner) for corner in near if part.distance(corner) <= MET * domain.spacing]
+        if is_first == is_last or not at:
+            continue
+        foot = min(at, key=lambda arc_length: abs(arc_length - foot))
+        start, stop = (foot, stop) if is_first else (start, foot)
+    return [substring(part, start, stop)] if stop - start > domain.sample else []
+
+
+def _turning_points(outline: BaseGeometry) -> np.ndarray:
+    """The vertices at which an outline turns by more than a corner's angle, shape (n, 2)."""
+    found = []
+    for part in shapely.get_parts(outline):
+        for ring in (part.exterior, *part.interiors):
+            points = shapely.get_coordinates(ring)[:-1]
+            arms = [points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points]
+            cross = arms[0][:, 0] * arms[1][:, 1] - arms[0][:, 1] * arms[1][:, 0]
+            turn = np.abs(np.arctan2(cross, np.sum(arms[0] * arms[1], axis=1)))
+            found.append(points[turn > CORNER])
+    return np.concatenate(found)
 
 
 def _own_parts(name: str, curves: Mapping[str, LineString], sample: float) -> list[LineString]:

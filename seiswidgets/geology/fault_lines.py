@@ -146,8 +146,7 @@ def _fit_ends(
 ) -> LineString:
     """Extend the ends of a fault to a line that they nearly meet, or cut them back to it."""
     start, stop = 0.0, line.length
-    along = line.intersection(domain.outline.boundary.buffer(ON_BORDER * domain.sample))
-    scarps = [part for part in shapely.get_parts(along) if part.length > 2 * domain.sample]  # where it is the border
+    scarps = along_border(line, domain)
     for arc_length in (line.project(point) for other in others for point in _common_points(line, other)):
         if shapely.dwithin(scarps, line.interpolate(arc_length), domain.sample).any():
             continue
@@ -162,6 +161,12 @@ def _fit_ends(
     if stop == line.length and ends[1] != TIP:
         points = _extend_end(points, others, ends[1], domain)
     return LineString(points)
+
+
+def along_border(line: LineString, domain: RestorationDomain) -> list[LineString]:
+    """The stretches of a fault that are the border of the rock, as the scarps that stripping leaves."""
+    near = line.intersection(domain.outline.boundary.buffer(ON_BORDER * domain.sample))
+    return [part for part in shapely.get_parts(near) if part.length > 2 * domain.sample]
 
 
 def _is_near(stub: LineString, domain: RestorationDomain) -> bool:

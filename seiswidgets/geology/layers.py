@@ -16,6 +16,7 @@ from seiswidgets.geology.segments import HorizonSegment, horizon_segments, neare
 
 WATER = -1  # layer of what lies above the youngest top, and of holes
 BESIDE = 1e-3  # of a sample: distance of a point on either side of a horizon, and of an end beyond a line it meets
+MISSING = 0.1  # of a column's height: what lies below it is taken for more of the same
 SPECK = 1e-6  # of the rock's area: a smaller face is rounding
 
 
@@ -106,7 +107,7 @@ class Layers:
         return np.append(self.layer_of_face, WATER)[self._face_at(points)]
 
     def columns(self, x: np.ndarray, z: np.ndarray | None = None, parts: int = 1) -> "Columns":
-        """Vertical columns through the rock.
+        """Vertical columns through the rock; at a sloping side, that at the corner above or below it stands for others.
 
         Parameters
         ----------
@@ -116,6 +117,7 @@ class Layers:
         parts : int
             Number of equal parts that each stretch of a layer is divided into.
         """
+        x = np.clip(x, *self._top_corners)
         column, depth, layer = self._stretches(x)
         if z is not None:
             first = np.searchsorted(column, np.arange(len(x)))
@@ -131,13 +133,20 @@ class Layers:
         share = np.arange(parts + 1) / parts
         nodes = depth[:, :1] + (depth[:, 1:] - depth[:, :1]) * share
         depth = np.stack([nodes[:, :-1], nodes[:, 1:]], axis=-1).reshape(-1, 2)
-        return _padded(np.repeat(column, parts), depth, np.repeat(layer, parts), len(x), z)
+        return _padded(np.repeat(column, parts), depth, np.repeat(layer, parts), x, z)
+
+    @cached_property
+    def _top_corners(self) -> tuple[float, float]:
+        """Positions of the upper left and the upper right corner of the rock: beyond them, its sides slope."""
+        points = shapely.get_coordinates(self.domain.outline)
+        low, high = points.min(axis=0), points.max(axis=0)
+        x, z = ((points - low) / (high - low)).T
+        inset = 1e-9 * (high[0] - low[0])  # a column along the border lies just inside
+        left, right = points[np.argmin(x + z), 0] + inset, points[np.argmin(1 - x + z), 0] - inset
+        return float(left), float(right)
 
     def _stretches(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Column, depths of both ends, and layer of each stretch between two crossings, downwards in each column."""
-        x_min, _, x_max, _ = self.domain.outline.bounds
-        inset = 1e-9 * (x_max - x_min)  # a column along the border lies just inside
-        x = np.clip(x, x_min + inset, x_max - inset)
         column, depth = _crossings(self._linework, x)
         pairs = np.flatnonzero((column[1:] == column[:-1]) & (depth[1:] > depth[:-1]))
         column, depth = column[pairs], np.column_stack([depth[pairs], depth[pairs + 1]])
@@ -171,6 +180,7 @@ class Columns:
 
     Attributes
     ----------
+    x : array, shape (n,)
     nodes : array, shape (n, k, 2)
         Depths of the upper and lower end of each stretch, downwards; the last ones have no thickness.
     layer : array, shape (n, k)
@@ -179,6 +189,7 @@ class Columns:
         Index of the stretch whose lower end is the depth that was asked for; -1 for the top of the column.
     """
 
+    x: np.ndarray
     nodes: np.ndarray
     layer: np.ndarray
     at: np.ndarray
@@ -189,7 +200,12 @@ class Columns:
         bottom = np.take_along_axis(self.nodes[..., 1], last, axis=1)
         rest = np.stack([bottom, np.maximum(bottom, depth)], axis=-1)
         layer = np.take_along_axis(self.layer, last, axis=1)
-        return Columns(np.concatenate([self.nodes, rest], axis=1), np.hstack([self.layer, layer]), self.at)
+        return Columns(self.x, np.concatenate([self.nodes, rest], axis=1), np.hstack([self.layer, layer]), self.at)
+
+    @property
+    def is_whole(self) -> np.ndarray:
+        """True for columns of `down_to` that are little longer than the rock in them, shape (n,)."""
+        return np.asarray(self.thickness[:, -1] <= MISSING * (self.nodes[:, -1, 1] - self.surface))
 
     @property
     def thickness(self) -> np.ndarray:
@@ -203,7 +219,8 @@ class Columns:
         return np.asarray(np.take_along_axis(self.nodes[..., 0], first[:, None], axis=1)[:, 0])
 
 
-def _padded(column: np.ndarray, depth: np.ndarray, layer: np.ndarray, count: int, z: np.ndarray | None) -> Columns:
+def _padded(column: np.ndarray, depth: np.ndarray, layer: np.ndarray, x: np.ndarray, z: np.ndarray | None) -> Columns:
+    count = len(x)
     counts = np.bincount(column, minlength=count)
     position = np.arange(len(column)) - np.repeat(np.cumsum(counts) - counts, counts)
     last = np.cumsum(counts) - 1
@@ -215,7 +232,7 @@ def _padded(column: np.ndarray, depth: np.ndarray, layer: np.ndarray, count: int
     if z is not None:
         reached = (nodes[..., 1] <= z[:, None] + 1e-12 * np.abs(z[:, None])) & (nodes[..., 1] > nodes[..., 0])
         at = np.where(reached.any(axis=1), reached.shape[1] - 1 - np.argmax(reached[:, ::-1], axis=1), -1)
-    return Columns(nodes, layers, at)
+    return Columns(x, nodes, layers, at)
 
 
 def layers_of(

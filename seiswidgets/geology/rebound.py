@@ -14,7 +14,7 @@ from seiswidgets.geology.report import Observations
 from seiswidgets.geology.stage import ISOSTASY, Stage
 from seiswidgets.geology.stratified_rock import StratifiedRock
 
-CELLS = 512  # along the section, in which loads are weighed
+CELLS, QUICK_CELLS = 512, 128  # along the section, in which loads are weighed; for a preview
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,34 +26,38 @@ class Weighing:
     model : Isostasy
     x_min, x_max, bottom : float
         Ends of the section, and the depth down to which it is weighed, in metres of rock.
+    cells : int
     """
 
     model: Isostasy
     x_min: float
     x_max: float
     bottom: float
+    cells: int
 
     @property
     def step(self) -> float:
         """Width of a cell, in metres."""
-        return (self.x_max - self.x_min) / CELLS
+        return (self.x_max - self.x_min) / self.cells
 
     @property
     def x(self) -> np.ndarray:
         """Middles of the cells, shape (n,)."""
-        return self.x_min + (np.arange(CELLS) + 0.5) * self.step
+        return self.x_min + (np.arange(self.cells) + 0.5) * self.step
 
     def load(self, rock: StratifiedRock) -> np.ndarray:
-        """Weight of what lies in each cell, in Pa; that of the nearest cell where there is no rock."""
+        """Weight of what lies in each cell, in Pa; that of the nearest cells where much of the rock is missing."""
         columns = rock.layers.columns(self.x).down_to(self.bottom)
-        compaction = ColumnCompaction.of(columns, self.x, rock.memory, rock.stratigraphy)
+        compaction = ColumnCompaction.of(columns, rock.memory, rock.stratigraphy)
         grains = np.array([*(layer.rock.grain_density for layer in rock.stratigraphy.layers), 0.0])[columns.layer]
         pores, is_rock = compaction.pores(), columns.layer >= 0
         mass = (grains * (columns.thickness - pores) + self.model.water_density * pores * is_rock).sum(axis=1)
         if self.model.sea_level is not None:
             level = self.model.sea_level * float(rock.picks.original.metres[1])
             mass += self.model.water_density * np.maximum(columns.surface - level, 0)
-        known = (is_rock & (columns.thickness > 0)).any(axis=1)
+        known = columns.is_whole & (is_rock & (columns.thickness > 0)).any(axis=1)
+        if not known.any():
+            return GRAVITY * mass
         return np.asarray(GRAVITY * np.interp(self.x, self.x[known], mass[known]))
 
 
@@ -79,7 +83,8 @@ def isostasy_stage(
     """
     began = time.perf_counter()
     x_min, _, x_max, bottom = domain.outline.bounds
-    weighing = Weighing(model, x_min, x_max, max(bottom, before.picks.domain.outline.bounds[3]))
+    bottom = max(bottom, before.picks.domain.outline.bounds[3])
+    weighing = Weighing(model, x_min, x_max, bottom, QUICK_CELLS if domain.quick else CELLS)
     sunk = model.deflection(weighing.load(after) - weighing.load(before), weighing.step, beyond)
     mesh = domain.mesh({})
     vertices = mesh.vertices + np.outer(np.interp(mesh.vertices[:, 0], weighing.x, sunk), (0, 1))

@@ -21,6 +21,7 @@ MOST, LEAST = 20.0, 3.0  # traces by which a piece is extended; traces and sampl
 STEEP = 2.0  # times as much counts what an extension falls or rises
 BASELINE = 10.0  # traces at the end of a piece, whose median direction an extension takes
 EXTENSION = 0.2  # of a piece's length, where the size of traces is not known
+SPECK = 1e-3  # of a trace or a sample: shorter parts between two crossings are rounding
 TOUCHING = 0.1  # of a trace or a sample: a horizon that ends so close to the end of a fault meets it there
 JOINED = 3.0  # traces and samples: ends of two pieces that lie closer become one point
 
@@ -112,16 +113,17 @@ def split_at_faults(
     length = line.length
     if not crossings and length > 0:
         return [HorizonSegment(line, (None, None), piece)]
+    least = max(1e-9 * length, 0.0 if cell is None else SPECK * float(np.min(cell)))
     inner: list[tuple[float, int]] = []
     for at, fault in crossings:
-        if inner and at - inner[-1][0] <= 1e-9 * length:  # on a stretch that faults share: one counts
+        if inner and at - inner[-1][0] <= least:  # on a stretch that faults share: one counts
             inner[-1] = at, min(fault, inner[-1][1], key=_through_first(faults, line.interpolate(at)))
-        elif 1e-9 * length < at < (1 - 1e-9) * length:
+        elif least < at < length - least:
             inner.append((at, fault))
     stops: list[tuple[float, int | None]] = [(0.0, None), *inner, (length, None)]
     segments = []
     for (start, first), (stop, last) in pairwise(stops):
-        if stop - start <= 1e-9 * length:
+        if stop - start <= least:
             continue
         part = substring(line, start, stop)
         ends = _end_at(part, 0, first, faults), _end_at(part, -1, last, faults)

@@ -14,6 +14,7 @@ from seiswidgets.core.triangulation import edges_along
 from seiswidgets.errors import PickError
 from seiswidgets.geology.closed_form import ClosedForm
 from seiswidgets.geology.domain import RestorationDomain
+from seiswidgets.geology.layers import Layers
 from seiswidgets.geology.observations import observe_bed
 from seiswidgets.geology.picks import HORIZON
 from seiswidgets.geology.stage import Stage
@@ -60,17 +61,27 @@ def shear_flat_stage(
             where=domain.position(points[back[0]]),
         )
     points = points[np.append(True, np.diff(points[:, 0]) > 1e-6 * domain.spacing)]
-    mesh = domain.mesh({(HORIZON, name): [surface]})
-    x = mesh.vertices[:, 0]
+    is_top = _is_border(surface, domain)
+    mesh = domain.mesh({} if is_top else {(HORIZON, name): [surface]})
+    x, z = mesh.vertices.T
+    depth = Layers(domain, {}, (), 1).columns(x).surface if is_top else np.interp(x, *points.T)
     target = profile_at(_mean_level(points, domain) if datum is None else datum, x)
-    vertices = mesh.vertices + np.outer(target - np.interp(x, *points.T), (0, 1))
-    observe = partial(observe_bed, name, _edges(mesh, surface, domain), mesh.vertices, vertices, domain)
+    vertices = np.column_stack([x, z + target - depth])
+    on_top = np.abs(z - depth) <= 1e-6 * domain.spacing
+    edges = mesh.boundary[on_top[mesh.boundary].all(axis=1)] if is_top else _edges(mesh, surface, domain)
+    observe = partial(observe_bed, name, edges, mesh.vertices, vertices, domain)
     return ClosedForm("flatten", (name,), domain, progress).stage(mesh, vertices, observe, notes, began)
 
 
 def _mean_level(points: np.ndarray, domain: RestorationDomain) -> float:
     x_min, _, x_max, _ = domain.outline.bounds
     return float(np.interp(np.linspace(x_min, x_max, 1001), *points.T).mean())
+
+
+def _is_border(surface: LineString, domain: RestorationDomain) -> bool:
+    """True for the horizon that the section was stripped to: its line nearly is the border, but for simplification."""
+    inside = surface.intersection(domain.outline)
+    return bool(inside.difference(domain.outline.boundary.buffer(domain.sample)).length < domain.spacing)
 
 
 def _edges(mesh: Mesh, surface: LineString, domain: RestorationDomain) -> np.ndarray:

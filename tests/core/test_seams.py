@@ -1,10 +1,12 @@
 import numpy as np
 import pytest
 import shapely
+from shapely import Polygon, box
 
 from seiswidgets.core.mapping import PiecewiseAffineMap
 from seiswidgets.core.mesh import triangle_areas
 from seiswidgets.core.seams import new_holes, outline, weld_seams
+from seiswidgets.core.triangulation import triangulate
 from tests.core.meshes import BOX, PLANAR, arc, cut_along, rotated
 
 CENTRE = (1500.0, -300.0)  # of the arcs
@@ -100,3 +102,10 @@ def test_new_holes_are_those_that_were_not_there_before():
     assert [hole.area for hole in new_holes(square, gaping)] == [2, 16]
     assert [hole.area for hole in new_holes(holed, gaping)] == [2]
     assert new_holes(holed, holed) == []
+
+
+def test_a_hairline_that_is_open_at_one_end_is_closed():
+    """As between the sides of a fault above the stretch along which they are welded."""
+    points = [(0, 0), (99.9997, 0), (100, 4), (100.0003, 0), (200, 0), (200, 100), (0, 100)]
+    rock = triangulate(Polygon(points), [], 40.0)
+    assert outline(rock, rock.vertices, closing=1.0).symmetric_difference(box(0, 0, 200, 100)).area < 1e-6

@@ -115,7 +115,7 @@ def test_grains_are_kept_in_each_column_and_on_the_mesh():
     stripped = sw.Restoration(case.section).strip(horizon(case, "H1"))
     rock = stripped.stratified(case.stratigraphy, case.interpretation)
     x = np.linspace(100, 3900, 50)
-    before = ColumnCompaction.of(rock.layers.columns(x), x, rock.memory, case.stratigraphy)
+    before = ColumnCompaction.of(rock.layers.columns(x), rock.memory, case.stratigraphy)
     thickness, depth = before.expanded()
     nodes = np.stack([depth - thickness, depth], axis=-1)
     after = ColumnCompaction(replace(before.columns, nodes=nodes), nodes, case.stratigraphy)
