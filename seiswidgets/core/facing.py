@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array, eye_array, kron
 
-from seiswidgets.core.term import CONSTANT, PaperTerm
+from seiswidgets.core.term import MOVING, PaperTerm
 from seiswidgets.core.terms import sparse_rows
 
 ACROSS = np.array([[0.0, 1.0], [-1.0, 0.0]])  # a row (x, z) times this is (-z, x)
@@ -39,7 +39,7 @@ class Facing(PaperTerm):
     count: int
     weight: float = 1.0
     name = "slip"
-    pattern = CONSTANT
+    pattern = MOVING  # not within one solution, but from one slip to the next
 
     @property
     def nearest(self) -> np.ndarray:

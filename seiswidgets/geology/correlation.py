@@ -87,6 +87,13 @@ class Correlation(float):
         total._walls, total._window = (one, other), WINDOW * traces.wavelength / traces.step
         return total
 
+    @classmethod
+    def of_profile(cls, traces: FaultTraces, profile: SlipProfile) -> "Correlation":
+        """Compare the points of the two walls that a slip brings together; PickError as above."""
+        s = traces.s[traces.within]
+        slip = profile.at(s)
+        return cls.of(traces, s + slip / 2, s - slip / 2)
+
     def __repr__(self) -> str:
         belief = f"{self.samples:.0f} independent samples, significance {self.significance:.3f}"
         return f"<Correlation {float(self):.2f} of {belief}>"
@@ -175,10 +182,7 @@ def match(section: Section, fault: Fault, profile: SlipProfile, gap: int = 2, wi
     >>> [sw.match(case.section, fault, sw.SlipProfile([0], [slip])) > 0.9 for slip in (0, 150)]
     [False, True]
     """
-    traces = fault_traces(section, fault, gap, width)
-    s = traces.s[traces.within]
-    slip = profile.at(s)
-    return Correlation.of(traces, s + slip / 2, s - slip / 2)
+    return Correlation.of_profile(fault_traces(section, fault, gap, width), profile)
 
 
 def likeness(restoration: Restoration, fault: Fault, gap: int = 2, width: int = 8) -> Correlation:

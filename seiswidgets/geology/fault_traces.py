@@ -6,7 +6,7 @@ averaged over some traces. What a slip does to the match of the two walls is the
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -29,6 +29,7 @@ HANGING, FOOT = 0, 1  # indices of the walls
 FINE = 0.5  # of a sample: distance of the traces' points along the fault
 BEYOND = 25  # samples by which a fault that ends inside the section is continued straight
 LEAST_SAMPLES = 8
+KEPT = 16  # faults
 LEAST_CONTRAST = 1e-6  # of the section's largest amplitude
 SCALE, WINDOW = (1.5, 1.5), 4.0  # samples and traces of the gradient; traces of the average of slopes
 SAMPLES = (5.0, 15.0)  # least and largest window of that average along z
@@ -145,9 +146,8 @@ class FaultTraces:
         return shapely.line_locate_point(self.line, at) + self.s[0], shapely.distance(self.line, at)
 
 
-@lru_cache(maxsize=8)
 def fault_traces(section: Section, fault: Fault, gap: int = 2, width: int = 8) -> FaultTraces:
-    """Read the two walls of a fault.
+    """Read the two walls of a fault; those of the last few faults are kept with the section.
 
     Parameters
     ----------
@@ -163,7 +163,18 @@ def fault_traces(section: Section, fault: Fault, gap: int = 2, width: int = 8) -
     SettingError
         If ``gap`` is less than 0, or ``width`` less than 1.
     """
-    gap, width = validation.whole_number("gap", gap, least=0), validation.whole_number("width", width, least=1)
+    key = "fault traces", fault.name, fault.points.tobytes(), gap, width
+    if key not in section.derived:
+        gap, width = validation.whole_number("gap", gap, least=0), validation.whole_number("width", width, least=1)
+        read = _read(section, fault, gap, width)
+        for old in list(section.derived)[: 1 - KEPT]:
+            del section.derived[old]
+        section.derived[key] = read
+    traces: FaultTraces = section.derived[key]
+    return traces
+
+
+def _read(section: Section, fault: Fault, gap: int, width: int) -> FaultTraces:
     line, first, length = _continued(section, fault)
     s = np.arange(first, first + line.length, FINE * section.dz * float(section.metres[1]))
     points = section.from_rock(shapely.get_coordinates(line.interpolate(s - first)))

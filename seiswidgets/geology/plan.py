@@ -167,6 +167,25 @@ class Plan:
         )
         return cls(steps, stratigraphy=stratigraphy, isostasy=isostasy, **options)
 
+    def slip_of(self, fault: str) -> SlipProfile | None:
+        """The slip that is prescribed for a fault, in the first step that slides along it; None if there is none."""
+        return next((step.slip.get(fault) for step in self.steps if step.slides_along(fault)), None)
+
+    def with_slip(self, fault: str, slip: SlipProfile | None) -> "Plan":
+        """Prescribe the slip of a fault, or None to match horizons, in the first step that slides along it.
+
+        Without such a step, one is added before the others.
+        """
+        steps = self.steps
+        if slip is not None and not any(step.slides_along(fault) for step in steps):
+            steps = (Step(UNFAULT, (fault,)), *steps)
+        index = next((index for index, step in enumerate(steps) if step.slides_along(fault)), None)
+        if index is None:
+            return self
+        others = {name: profile for name, profile in steps[index].slip.items() if name != fault}
+        changed = replace(steps[index], slip=others if slip is None else others | {fault: slip})
+        return replace(self, steps=(*steps[:index], changed, *steps[index + 1 :]))
+
     def restore(
         self,
         section: Section,

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from seiswidgets.core.warping import local_correlation
 from seiswidgets.errors import Cancelled, SettingError
+from seiswidgets.geology.correlation import Correlation
 from seiswidgets.geology.fault_traces import FOOT, HANGING, FaultTraces, fault_traces
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.picks import Fault, Horizon
@@ -33,7 +34,7 @@ class Scan:
     ----------
     traces : FaultTraces
     curves : dict of str to Curve
-        For slip that is "constant", "linear" or "varying" along the fault.
+        For slip that is "constant", "linear", "elliptic" or "varying" along the fault.
     proposals : tuple of Proposal
         Counterparts of the horizons that reach the fault on one side.
     findings : tuple of Finding
@@ -81,6 +82,12 @@ class Scan:
         """True if there is a credible match, and no other one that is nearly as likely."""
         return not self.findings
 
+    def profile_through(self, slip: float) -> SlipProfile:
+        """The profile of the peak nearest to a slip at the middle of the fault, shifted to that slip."""
+        nearest = min(self.peaks, key=lambda peak: abs(peak.slip - slip))
+        shifted = np.asarray(nearest.profile.slip) + slip - nearest.slip
+        return SlipProfile(nearest.profile.s, tuple(shifted.tolist()))
+
     @cached_property
     def local_correlation(self) -> np.ndarray:
         """Correlation in a window around each of ``traces.s``, for each slip, shape (k, n)."""
@@ -112,9 +119,9 @@ def scan(
 ) -> Scan:
     """Try many slips along a fault, and see for which its two walls match.
 
-    Slip that is constant, linear or varying along the fault gives a curve each of the best correlation against the slip
-    at the middle of the fault. Slip that varies is found by dynamic programming over the whole fault, which keeps to
-    one cycle of the reflections, and refined by least squares. No mesh is made.
+    Slip that is constant, linear, elliptic (dying out at both ends) or varying along the fault gives a curve each of
+    the best correlation against the slip at the middle of the fault. Slip that varies is found by dynamic programming
+    over the whole fault, which keeps to one cycle of the reflections, and refined by least squares. No mesh is made.
 
     Parameters
     ----------
@@ -160,7 +167,7 @@ def scan(
     curves = {kind: matching.curve(kind, max(chance[kind] for chance in chances)) for kind in KINDS}
     found = Scan(traces, curves)
     given = [horizons] if isinstance(horizons, Horizon) else list(horizons)
-    counterparts = proposals(traces, found.profile, found.best.peaks[0].match(traces), given)
+    counterparts = proposals(traces, found.profile, Correlation.of_profile(traces, found.profile), given)
     return replace(found, proposals=counterparts, findings=tuple(_findings(found)))
 
 

@@ -1,8 +1,9 @@
 """A seismic section: amplitudes on a regular grid, with spacing and units."""
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -140,6 +141,11 @@ class Section:
         """Metres of rock in one unit of x and one of z, shape (2,)."""
         z = METRES[self.z_unit] if self.velocity is None else SECONDS[self.z_unit] * self.velocity / 2
         return np.array([METRES[self.x_unit], z])
+
+    @cached_property
+    def derived(self) -> dict[Hashable, Any]:
+        """Costly results of functions of the section, kept as long as it lives."""
+        return {}
 
     def to_rock(self, points: ArrayLike) -> np.ndarray:
         """Convert points from the section's units to metres of rock, in true proportions; shape (n, 2)."""

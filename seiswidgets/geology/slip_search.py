@@ -1,4 +1,4 @@
-"""The slip of each kind for which two walls match best: constant, linear, or varying along the fault."""
+"""The slip of each kind for which two walls match best: constant, linear, elliptic, or varying along the fault."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -8,18 +8,18 @@ import numpy as np
 from scipy.signal import find_peaks, peak_widths
 
 from seiswidgets.core.warping import PathSearch, TracePair, local_correlation, refine_lags
-from seiswidgets.geology.correlation import Correlation, correlation_of, significance
+from seiswidgets.geology.correlation import correlation_of, significance
 from seiswidgets.geology.fault_traces import FaultTraces
 from seiswidgets.geology.slip_profile import SlipProfile
 
-CONSTANT, LINEAR, VARYING = KINDS = "constant", "linear", "varying"
+CONSTANT, LINEAR, ELLIPTIC, VARYING = KINDS = "constant", "linear", "elliptic", "varying"
 WINDOW, NODES, KNOTS = 0.35, 0.5, 0.25  # of the wavelength: of local correlation, of paths and of their refinement
 STEEPEST, PATH_STIFFNESS = 0.8, 0.05  # metres of slip per metre of fault; score lost by a change of one lag
 STIFFNESS = 5000.0  # times the variance of what does not match: weight of the slip's second differences
 NORMAL = 0.45  # median of the square of a normal variable
 GRADIENTS = np.linspace(-0.2, 0.2, 17)  # metres of slip per metre of fault
 MOST_PEAKS = 6
-ROWS = 81  # positions of a profile that varies freely
+ROWS = 81  # positions of a profile that is neither constant nor linear
 LEAST = 8  # points that two walls have in common
 PROMINENT = 0.02
 NOISE = 0.05  # of the variance: no image matches better
@@ -54,12 +54,6 @@ class Peak:
     half_width: float
     weight: float = 1.0
 
-    def match(self, traces: FaultTraces) -> Correlation:
-        """The correlation along the fault."""
-        s = traces.s[traces.within]
-        slip = self.profile.at(s)
-        return Correlation.of(traces, s + slip / 2, s - slip / 2)
-
 
 @dataclass(frozen=True, eq=False)
 class Curve:
@@ -67,8 +61,8 @@ class Curve:
 
     Attributes
     ----------
-    kind : {"constant", "linear", "varying"}
-        How the slip may vary along the fault.
+    kind : {"constant", "linear", "elliptic", "varying"}
+        How the slip may vary along the fault; elliptic slip dies out at both its ends.
     slip, correlation : arrays, shape (k,)
         In metres of rock; for varying slip the mean of the local correlation.
     peaks : tuple of Peak
@@ -128,18 +122,19 @@ class SlipSearch:
     def chances(self) -> Mapping[str, float]:
         """The highest correlation of each kind."""
         starts = {
-            CONSTANT: self._constant(float(self.tried[np.argmax(self._of_constants)])),
+            CONSTANT: self._at(CONSTANT, int(np.argmax(self._of_shape(CONSTANT)))),
             VARYING: self._varying(int(np.argmax(self._of_paths))),
         }
-        found = starts | {LINEAR: self._linear(starts.values())}
+        elliptic = self._at(ELLIPTIC, int(np.argmax(self._of_shape(ELLIPTIC))))
+        found = starts | {LINEAR: self._linear(starts.values()), ELLIPTIC: elliptic}
         return {kind: self._correlation(slip) for kind, slip in found.items()}
 
     def curve(self, kind: str, chance: float) -> Curve:
         """The curve of one kind, and its peaks."""
-        correlation = {CONSTANT: self._of_constants, LINEAR: self._of_lines, VARYING: self._of_paths}[kind]
+        correlation = {LINEAR: self._of_lines, VARYING: self._of_paths}.get(kind, self._of_shape(kind))
         axis = self._lags if kind == VARYING else self.tried
         peaks = self._peaks(kind, axis, correlation)
-        freedom = {CONSTANT: 1.0, LINEAR: 2.0, VARYING: 2 + self.traces.length / (2 * self.traces.wavelength)}[kind]
+        freedom = {LINEAR: 2.0, VARYING: 2 + self.traces.length / (2 * self.traces.wavelength)}.get(kind, 1.0)
         return Curve(kind, axis, correlation, peaks, chance, freedom)
 
     def _peaks(self, kind: str, axis: np.ndarray, correlation: np.ndarray) -> tuple[Peak, ...]:
@@ -170,8 +165,9 @@ class SlipSearch:
         if kind == VARYING:
             return self._varying(index)
         slip = float(self.tried[index])
-        if kind == CONSTANT:
-            return self._constant(slip)
+        if kind != LINEAR:
+            shape = self._shape(kind)
+            return refine_lags(self.pair, slip * shape, shape[:, None], 0.0, self._within)
         return self._linear([slip + GRADIENTS[self._lines[:, index].argmax()] * self._from_middle])
 
     @cached_property
@@ -198,9 +194,16 @@ class SlipSearch:
         both = np.isfinite(one) & np.isfinite(other)
         return float(max(1.0, both.sum() * self.traces.step / self.traces.independence))
 
-    @cached_property
-    def _of_constants(self) -> np.ndarray:
-        return np.array([_discounted(*self._walls(np.asarray(slip), self._within)) for slip in self.tried])
+    def _shape(self, kind: str) -> np.ndarray:
+        """Slip as a multiple of that at the middle: 1, or half an ellipse."""
+        if kind != ELLIPTIC:
+            return np.ones(len(self.traces.s))
+        return np.sqrt(np.maximum(1 - (2 * self._from_middle / self.traces.length) ** 2, 0))
+
+    def _of_shape(self, kind: str) -> np.ndarray:
+        """Correlation for each slip at the middle."""
+        shape = self._shape(kind)[self._within]
+        return np.array([_discounted(*self._walls(slip * shape, self._within)) for slip in self.tried])
 
     @cached_property
     def _lines(self) -> np.ndarray:
@@ -248,10 +251,6 @@ class SlipSearch:
         hats = _hats(len(slip), max(2, round(KNOTS * wavelength / step)))
         return refine_lags(self.pair, slip, hats, STIFFNESS * variance / (step * wavelength), slice(None))
 
-    def _constant(self, slip: float) -> np.ndarray:
-        ones = np.ones((len(self.traces.s), 1))
-        return refine_lags(self.pair, slip * ones[:, 0], ones, 0.0, self._within)
-
     def _linear(self, starts: Iterable[np.ndarray]) -> np.ndarray:
         """The best line from any of some starts."""
         line = np.column_stack([np.ones(len(self.traces.s)), self._from_middle / self.traces.length])
@@ -261,7 +260,7 @@ class SlipSearch:
 
     def _profile(self, kind: str, slip: np.ndarray) -> SlipProfile:
         s, inside = self.traces.s[self._within], slip[self._within]
-        count = {CONSTANT: 1, LINEAR: 2, VARYING: min(ROWS, len(s))}[kind]
+        count = {CONSTANT: 1, LINEAR: 2}.get(kind, min(ROWS, len(s)))
         rows = np.linspace(0, len(s) - 1, count).astype(int)
         return SlipProfile(tuple(s[rows]), tuple(inside[rows]))
 

@@ -77,3 +77,7 @@ class Step:
         if self.age is not None:
             object.__setattr__(self, "age", validation.finite_number("age", self.age))
         object.__setattr__(self, "slip", checked_slip(self.slip, tuple(self.slip or ())))
+
+    def slides_along(self, fault: str) -> bool:
+        """True if the step is on, and undoes the slip of a fault."""
+        return self.on and self.kind == UNFAULT and (not self.picks or fault in self.picks)

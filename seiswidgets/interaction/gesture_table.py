@@ -52,6 +52,10 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
             "shows what can be done there; a regional level, and whether an end of a fault dies out, are chosen so",
         ),
     ),
+    "On the curve of the tab Match": (
+        ("Drag; Left, Right, with Shift by ten", "prescribe the slip of the fault; Shift+drag passes peaks by"),
+        ("Click on a peak; Page Up, Page Down; Enter", "take a peak's profile; the next one; the likeliest"),
+    ),
     "Moving the picture": (
         ("Wheel, two fingers, + and -", "zoom at the pointer"),
         ("Drag, in Look; middle button; Space and drag", "pan, the last two in every mode"),

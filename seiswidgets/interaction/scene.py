@@ -1,6 +1,6 @@
 """Strokes and marks that a pane draws for the state of the editor."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,6 +40,24 @@ def _regional(state: EditorState, projection: PaneProjection) -> list[Stroke]:
     points = ((x_min, level), (x_max, level)) if isinstance(level, float) else level
     (shown,) = projection.lines([(points, 0)])
     return [Stroke(shown, DRAFT_COLOUR, 1.0, dash=DASH, label="regional")]
+
+
+@dataclass(frozen=True, eq=False)
+class Ghost:
+    """A proposed piece of a horizon, shown dashed until it is accepted or dismissed."""
+
+    points: Points
+    colour: str
+    label: str
+
+
+def ghost_strokes(ghosts: Sequence[Ghost], projection: PaneProjection) -> list[Stroke]:
+    """Proposed pieces as the pane shows them."""
+    shown = projection.lines([(ghost.points, 0) for ghost in ghosts])
+    return [
+        Stroke(points, ghost.colour, WIDTH_SELECTED, dash=DASH, label=ghost.label)
+        for ghost, points in zip(ghosts, shown, strict=True)
+    ]
 
 
 def _rectangle(state: EditorState, projection: PaneProjection) -> list[Stroke]:

@@ -47,8 +47,9 @@ from seiswidgets.widgets.status_bar import StatusBar
 from seiswidgets.widgets.timeline import Timeline
 from seiswidgets.widgets.workspace import Workspace
 
-WORKING = ("analysis", "files", "hypotheses_panel", "uncertainty_panel")  # pages that work in the background
+WORKING = ("match", "analysis", "files", "hypotheses_panel", "uncertainty_panel")  # pages that work in the background
 if TYPE_CHECKING:
+    from seiswidgets.widgets.match_panel import MatchPanel
     from seiswidgets.widgets.panels.hypotheses import HypothesesPanel
     from seiswidgets.widgets.panels.uncertainty import UncertaintyPanel
 
@@ -197,6 +198,13 @@ class RestorationApp(WithParts, VBox):
         return Analysis(self.workspace)
 
     @cached_property
+    def match(self) -> "MatchPanel":
+        """Page of the tab Match, made when it is first opened."""
+        from seiswidgets.widgets.match_panel import MatchPanel  # imports scipy.signal
+
+        return MatchPanel(self.picker)
+
+    @cached_property
     def files(self) -> FilePanel:
         """Page of the tab File, made when it is first opened."""
         files = FilePanel(self.workspace, self.session_bar)
@@ -288,6 +296,7 @@ class RestorationApp(WithParts, VBox):
             Weights=lambda: self.sliders,
             Steps=lambda: self.step_list,
             Stratigraphy=lambda: StratigraphyPanel(workspace),
+            Match=lambda: self.match,
             Solver=lambda: self.solving,
             Display=lambda: DisplayControls(self.panes),
             Report=lambda: self.reports,

@@ -140,7 +140,8 @@ class LiveRestoration:
     def _is_possible(self) -> bool:
         """Return whether the picks suffice for a restoration; if not, show what to draw and the present-day section."""
         interpretation = self._workspace.interpretation
-        lacks_horizon = bool(interpretation.faults) and not interpretation.horizons
+        has_slip = any(step.slip for step in self._workspace.job.steps)
+        lacks_horizon = bool(interpretation.faults) and not interpretation.horizons and not has_slip
         if self._workspace.job.steps and not lacks_horizon:
             return True
         self._restorer.cancel()

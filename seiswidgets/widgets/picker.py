@@ -20,7 +20,7 @@ from seiswidgets.interaction.drawing import Drawing, Point
 from seiswidgets.interaction.editor import PickEditor
 from seiswidgets.interaction.editor_state import BLOCK, LOOK, MODES, MOVE
 from seiswidgets.interaction.gestures import Gesture, Move, Press
-from seiswidgets.interaction.scene import marks, rubber_band, strokes
+from seiswidgets.interaction.scene import Ghost, ghost_strokes, marks, rubber_band, strokes
 from seiswidgets.interaction.snapping import EVENTS, follow_event, snap_to_event
 from seiswidgets.widgets.binding import bind, bind_control
 from seiswidgets.widgets.closing import WithParts
@@ -93,6 +93,8 @@ class Picker(WithParts, VBox):
         True if the line between two clicks follows the event.
     dragging : bool
         True during a drag.
+    selection : PickSelection or None
+        The selected pick, to be observed.
     pane : SectionPane
     toolbar : Box
     help, click_line : GestureHelp, ClickLine
@@ -113,6 +115,7 @@ class Picker(WithParts, VBox):
     window = Float(5.0)
     follow = Bool(False)
     dragging = Bool(False)
+    selection = AnyTrait(None, allow_none=True)
 
     def __init__(self, section: Section | SectionPane, *, workspace: Workspace | None = None, **settings: Any):
         self.check_settings(settings)
@@ -123,6 +126,7 @@ class Picker(WithParts, VBox):
         self._drawn: dict[SectionPane, tuple[object, ...]] = {}
         self._messages: dict[str, tuple[str, str]] = {}
         self._findings: tuple[Finding, ...] = ()
+        self._ghosts: tuple[Ghost, ...] = ()
         self._finding_listeners: list[Callable[[Finding], None]] = []
         self._hover: Move | None = None  # the pointer's last move over a pane
         self.help, self.click_line = GestureHelp(), ClickLine(self._click_hint)
@@ -176,6 +180,11 @@ class Picker(WithParts, VBox):
         for pane in (self.pane, *self._others):
             self._draw(pane)
 
+    def show_ghosts(self, ghosts: Iterable[Ghost]) -> None:
+        """Show proposed pieces in all panes instead of earlier ones."""
+        self._ghosts = tuple(ghosts)
+        self.refresh()
+
     def on_finding(self, callback: Callable[[Finding], None]) -> None:
         """Call a function with a finding whose flag on the section is clicked."""
         self._finding_listeners.append(callback)
@@ -226,7 +235,7 @@ class Picker(WithParts, VBox):
         self._show_history("undo", history.next_undo)
         self._show_history("redo", history.next_redo)
         self.buttons["finish"].disabled = state.drawing.draft is None
-        self.mode, self.dragging = state.mode, state.drag is not None
+        self.mode, self.dragging, self.selection = state.mode, state.drag is not None, state.selection
         self.click_line.update()
 
     def _enter(self, mode: str) -> None:
@@ -235,13 +244,14 @@ class Picker(WithParts, VBox):
 
     def _draw(self, pane: SectionPane) -> None:
         state, projection = self.editor.state, pane.line_projection()
-        shown = state, projection.view, projection.restoration, self._findings
+        shown = state, projection.view, projection.restoration, self._findings, self._ghosts
         if self._drawn.get(pane) == shown:
             return
         self._drawn[pane] = shown
+        lines = [*strokes(state, projection), *ghost_strokes(self._ghosts, projection)]
         flagged = [flag for _, flag in flags(self._findings, projection)]
         with pane.layer.hold_sync():
-            pane.draw_lines(strokes(state, projection), briefly=state.drag is not None)
+            pane.draw_lines(lines, briefly=state.drag is not None)
             pane.draw_marks([*marks(state, projection, self.editor.cutoffs()), *flagged])
             pane.rubber = rubber_band(state, projection)
 

@@ -145,8 +145,10 @@ class Workspace(HasTraits):
             self.edit_hypotheses(f"show {alternatives(document)[index].name}", lambda old: switched(old, index))
 
     def change_plan(self, label: str, **choices: Any) -> None:
-        """Change choices of the plan as one edit."""
-        self.edit(label, plan=replace(self.plan, **choices))
+        """Change choices of the plan as one edit; the present ones are no edit, even while they are being dragged."""
+        plan = replace(self.plan, **choices)
+        if plan != self.plan:
+            self.edit(label, plan=plan)
 
     def open(
         self,
