@@ -66,6 +66,16 @@ def test_a_run_shows_error_bars_bands_and_a_map(panel):
     assert shade["window"] == [x_min - half[0], x_max + half[0], z_min - half[1], z_max + half[1]]
 
 
+def test_the_match_is_drawn_from_the_peaks_of_a_scan(panel):
+    panel.match_box.value = True
+    run(panel, 3)
+    ensemble = panel.ensemble
+    peaks = sw.scan(CASE.section, CASE.interpretation.faults[0]).peaks
+    means = [(min(peak.profile.slip) + max(peak.profile.slip)) / 2 for peak in peaks]
+    slips = ensemble.values[:, ensemble.labels.index(("slip", "F1"))]
+    assert all(min(abs(slip - mean) for mean in means) < 1 for slip in slips)
+
+
 def test_the_report_shows_the_error_bars_too(app, panel):
     run(panel)
     assert panel.table.value in app.reports.errors.value

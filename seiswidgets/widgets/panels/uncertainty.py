@@ -1,6 +1,7 @@
 """Uncertainty in the app: how far the picks may be wrong, and what that does to the results."""
 
 import time
+from dataclasses import replace
 from functools import partial
 from html import escape
 
@@ -27,7 +28,8 @@ from seiswidgets.geology.ensembles.member import Member, Study
 from seiswidgets.geology.ensembles.running import iterate_members
 from seiswidgets.geology.ensembles.uncertainty import Uncertainty
 from seiswidgets.geology.hypothesis import Hypothesis
-from seiswidgets.geology.picks import HORIZON
+from seiswidgets.geology.picks import HORIZON, Fault
+from seiswidgets.geology.scan import scan
 from seiswidgets.interaction.overlay import Overlay, Stroke
 from seiswidgets.interaction.viewport import Viewport
 from seiswidgets.widgets.jobs import UI_LOCK, Job, JobRunner
@@ -64,6 +66,8 @@ class UncertaintyPanel(VBox):
         The members so far; None before the first, and after a change of the picks or the plan.
     sliders : dict of str to FloatSlider
         By the fields of `Uncertainty`; velocity in percent.
+    match_box : Checkbox
+        Whether the choice of match is uncertain: each member takes one of the peaks of each fault's scan.
     members : BoundedIntText
     run_button, cancel_button : Button
     map_box : Checkbox
@@ -75,6 +79,9 @@ class UncertaintyPanel(VBox):
     def __init__(self, workspace: Workspace, panes: LinkedPanes):
         self._workspace, self._panes, self._runner = workspace, panes, JobRunner()
         self.sliders = _sliders()
+        self.match_box = Checkbox(
+            description="draw each fault's slip from the peaks of its scan", indent=False, layout=Layout(**WIDE)
+        )
         self.members = BoundedIntText(200, min=2, max=10_000, description="members", style=STYLE, layout=Layout(**WIDE))
         self.run_button = Button(description="Run", icon="play", tooltip="Restore with errors drawn at random")
         self.cancel_button = Button(description="Cancel", icon="stop", disabled=True)
@@ -84,7 +91,9 @@ class UncertaintyPanel(VBox):
         )
         self.message, self.table = HTML(HINT.format(EXPLAINED)), HTML()
         row = HBox([self.run_button, self.cancel_button, self.progress], layout=Layout(flex_flow="row wrap"))
-        super().__init__([*self.sliders.values(), self.members, row, self.map_box, self.message, self.table])
+        super().__init__(
+            [*self.sliders.values(), self.match_box, self.members, row, self.map_box, self.message, self.table]
+        )
         self.run_button.on_click(lambda _: self.run())
         self.cancel_button.on_click(lambda _: self._runner.stop())
         self.map_box.observe(lambda change: self._draw(), "value")
@@ -99,10 +108,11 @@ class UncertaintyPanel(VBox):
     def run(self) -> None:
         """Compute an ensemble in the background, with one process less than there are cores, but one at least."""
         workspace = self._workspace
-        study = Study(Hypothesis(workspace.section, workspace.interpretation, workspace.plan), self.uncertainty)
+        drawn = Hypothesis(workspace.section, workspace.interpretation, workspace.plan)
         self._set_running(True)
         self.message.value = HINT.format("Starting ...")
-        work = partial(self._compute, study, int(self.members.value))
+        faults = [fault for fault in drawn.interpretation.faults if fault.constrains and self.match_box.value]
+        work = partial(self._compute, drawn, self.uncertainty, faults, int(self.members.value))
         self._runner.submit(Job(work, self._end, self._fail, self._stopped))
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -113,9 +123,12 @@ class UncertaintyPanel(VBox):
         """Cancel what is in progress."""
         self._runner.drop()
 
-    def _compute(self, study: Study, count: int, job: Job) -> Ensemble:
-        """Compute members, and show them now and then; on the runner's thread."""
-        members: list[Member] = []
+    def _compute(
+        self, drawn: Hypothesis, uncertainty: Uncertainty, faults: list[Fault], count: int, job: Job
+    ) -> Ensemble:
+        """Scan some faults, compute members, and show them now and then; on the runner's thread."""
+        scans = {fault.name: scan(drawn.section, fault, progress=lambda share: job.wanted) for fault in faults}
+        study, members = Study(drawn, replace(uncertainty, matches=scans)), list[Member]()
         last_shown = time.monotonic()
         for arrived in iterate_members(study, range(count), workers=max(1, cpu_count() - 1)):
             members += [arrived] if arrived is not None else []
