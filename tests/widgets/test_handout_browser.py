@@ -195,7 +195,7 @@ def test_brushing_the_histogram_highlights_rock_in_both_panes(handout):
     assert [page.pixels(name) for name in ("original", "restored")] not in (before, brushed)
 
 
-def test_the_histogram_agrees_with_the_kernels(handout):
+def test_the_histogram_agrees_with_the_kernels_and_follows_time(handout):
     page = handout()
     case = restored()
     summary = page.page.locator("#histogram .summary").inner_text()
@@ -203,6 +203,8 @@ def test_the_histogram_agrees_with_the_kernels(handout):
     histogram = sw.DeformationHistogram(case.area_ratio_at(nodes))
     numbers = [[float(word.strip(",;")) for word in text.split()[1:6:2]] for text in (summary, histogram.summary)]
     np.testing.assert_allclose(*numbers, atol=0.002)
+    page.page.get_by_role("button", name="present day").click()
+    expect(page.page.locator("#histogram .summary")).to_contain_text("median 1.000, P1 1.000, P99 1.000")
 
 
 def test_picks_and_mesh_can_be_switched(handout):

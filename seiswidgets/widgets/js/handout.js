@@ -9,6 +9,7 @@ import { Timeline } from "./handout/timeline.js";
 import histogram from "./histogram.js";
 
 const ZOOM = 1.5;
+const PAUSE = 100; // ms between two histograms while time runs: the panes are first
 
 /** @param {string} id */
 const find = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
@@ -39,10 +40,16 @@ function showDeformation({ ratios }, panes) {
   model.on("change:log_shares", draw);
   draw();
   histogram.render(/** @type {any} */ ({ model, el: find("histogram") }));
+  let isScheduled = false;
+  const update = () => {
+    isScheduled = false;
+    parts = measure(picture.get("picture"));
+    draw();
+  };
   return {
     follow: () => {
-      parts = measure(picture.get("picture"));
-      draw();
+      if (!isScheduled) setTimeout(update, PAUSE);
+      isScheduled = true;
     },
     show: (/** @type {boolean} */ isOn) => {
       isShown = isOn;

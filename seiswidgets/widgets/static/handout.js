@@ -3411,6 +3411,7 @@ var histogram_default = { render };
 
 // handout.js
 var ZOOM = 1.5;
+var PAUSE3 = 100;
 var find = (id) => (
   /** @type {HTMLElement} */
   document.getElementById(id)
@@ -3438,10 +3439,16 @@ function showDeformation({ ratios }, panes) {
     /** @type {any} */
     { model, el: find("histogram") }
   );
+  let isScheduled = false;
+  const update = () => {
+    isScheduled = false;
+    parts = measure(picture.get("picture"));
+    draw();
+  };
   return {
     follow: () => {
-      parts = measure(picture.get("picture"));
-      draw();
+      if (!isScheduled) setTimeout(update, PAUSE3);
+      isScheduled = true;
     },
     show: (isOn) => {
       isShown = isOn;
