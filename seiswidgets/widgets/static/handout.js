@@ -1658,6 +1658,7 @@ var LivePane = class {
     this.layer = model;
     this.requestDraw = requestDraw;
     this.last = { time: 0, start: -Infinity, took: 0 };
+    this.isSkipping = false;
     this.refining = void 0;
     this.model = null;
     this.canvas = document.createElement("canvas");
@@ -1724,6 +1725,8 @@ var LivePane = class {
     if (!picture) return;
     const start2 = performance.now();
     const coarse = this.coarseness(picture.time, start2);
+    this.isSkipping = coarse > 1 && !this.isRestored && !this.isSkipping;
+    if (this.isSkipping) return;
     const ratio = Math.max(pixelRatio, this.leastRatio) / coarse;
     const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);

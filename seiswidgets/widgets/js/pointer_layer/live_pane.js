@@ -40,6 +40,7 @@ export class LivePane {
     this.layer = model;
     this.requestDraw = requestDraw;
     this.last = { time: 0, start: -Infinity, took: 0 };
+    this.isSkipping = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.refining = undefined;
     /** @type {import("../picture/types.js").PictureModel | null} */
@@ -114,6 +115,9 @@ export class LivePane {
     if (!picture) return;
     const start = performance.now();
     const coarse = this.coarseness(picture.time, start);
+    // of the present-day pane only the colours change with time: every other frame will do
+    this.isSkipping = coarse > 1 && !this.isRestored && !this.isSkipping;
+    if (this.isSkipping) return;
     const ratio = Math.max(pixelRatio, this.leastRatio) / coarse;
     const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
