@@ -2049,7 +2049,7 @@ function crossings(from, to, centre, radius) {
 
 // pointer_layer/strokes.js
 var NEAR = 14;
-var DOT = { radius: 2, halo: 1, distance: 10 };
+var DOT = { beyond: 0.75, halo: 1.25, distance: 10 };
 var HALO = 1.5;
 var LABEL_MARGIN = 4;
 var LABEL_OFFSET = 9;
@@ -2088,14 +2088,14 @@ function drawLine(group, { colour, width, dash }, pixels, cutoffs) {
   const thin = pathData(near);
   if (thin) append(group, "path", "thin", { d: thin, stroke: colour });
 }
-function drawDots(group, { colour, chosen }, pixels) {
+function drawDots(group, { colour, width, chosen }, pixels) {
+  const radius = width / 2 + DOT.beyond;
   const shown = thinned(pixels, chosen ?? -1, DOT.distance);
   const d = dotData(shown);
-  append(group, "path", "halo", { d, "stroke-width": 2 * (DOT.radius + DOT.halo) });
-  append(group, "path", "dots", { d, "stroke-width": 2 * DOT.radius, stroke: colour });
+  append(group, "path", "halo", { d, "stroke-width": 2 * (radius + DOT.halo) });
+  append(group, "path", "dots", { d, "stroke-width": 2 * radius, stroke: colour });
   const selected = pixels[chosen ?? -1];
-  if (selected)
-    append(group, "circle", "chosen", { cx: selected.x, cy: selected.y, r: DOT.radius + 3, stroke: colour });
+  if (selected) append(group, "circle", "chosen", { cx: selected.x, cy: selected.y, r: radius + 3, stroke: colour });
   return shown.map((pixel) => ({ ...pixel, colour }));
 }
 function thinned(pixels, chosen, distance2) {

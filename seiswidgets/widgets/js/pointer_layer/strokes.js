@@ -6,7 +6,7 @@ import { append, appendText, pathData, togglePale } from "../shared/svg.js";
 import { splitNear } from "./near.js";
 
 const NEAR = 14; // css pixels around a cut-off
-const DOT = { radius: 2, halo: 1, distance: 10 }; // css pixels; the last between two dots of a line
+const DOT = { beyond: 0.75, halo: 1.25, distance: 10 }; // css pixels beyond a line, around a dot, between two of a line
 const HALO = 1.5; // css pixels of the halo on either side of a line
 const LABEL_MARGIN = 4; // css pixels between a label and the border
 const LABEL_OFFSET = 9; // css pixels between a label and its vertex
@@ -77,14 +77,14 @@ function drawLine(group, { colour, width, dash }, pixels, cutoffs) {
  * @param {(Pixel | null)[]} pixels
  * @returns {import("./handles.js").Handle[]}
  */
-function drawDots(group, { colour, chosen }, pixels) {
+function drawDots(group, { colour, width, chosen }, pixels) {
+  const radius = width / 2 + DOT.beyond;
   const shown = thinned(pixels, chosen ?? -1, DOT.distance);
   const d = dotData(shown);
-  append(group, "path", "halo", { d, "stroke-width": 2 * (DOT.radius + DOT.halo) });
-  append(group, "path", "dots", { d, "stroke-width": 2 * DOT.radius, stroke: colour });
+  append(group, "path", "halo", { d, "stroke-width": 2 * (radius + DOT.halo) });
+  append(group, "path", "dots", { d, "stroke-width": 2 * radius, stroke: colour });
   const selected = pixels[chosen ?? -1];
-  if (selected)
-    append(group, "circle", "chosen", { cx: selected.x, cy: selected.y, r: DOT.radius + 3, stroke: colour });
+  if (selected) append(group, "circle", "chosen", { cx: selected.x, cy: selected.y, r: radius + 3, stroke: colour });
   return shown.map((pixel) => ({ ...pixel, colour }));
 }
 
