@@ -39,7 +39,7 @@ from seiswidgets.widgets.workspace import Workspace
 
 REFRESH = 0.5  # seconds between two pictures of an ensemble that grows
 BAND = 2.0  # standard deviations to either side of a restored horizon
-BAND_DASH = (2.0, 4.0)
+BAND_DASH = (6.0, 4.0)
 PALETTE = "viridis"
 OPACITY = 0.6
 EXPLAINED = (
