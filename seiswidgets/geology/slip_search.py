@@ -220,9 +220,11 @@ class SlipSearch:
     @cached_property
     def _lags(self) -> np.ndarray:
         """Slips that paths consist of."""
-        most = int(np.abs(self.tried[[0, -1]]).max() / (2 * self.traces.step))
-        lags = 2 * self.traces.step * np.arange(-most, most + 1)
-        return lags[(lags >= self.tried[0]) & (lags <= self.tried[-1])]
+        step = 2 * self.traces.step
+        first, last = np.ceil(self.tried[0] / step), np.floor(self.tried[-1] / step)
+        if last - first < 2:  # a peak has a slip on either side
+            first, last = first - 2, last + 2
+        return np.asarray(step * np.arange(first, last + 1))
 
     @cached_property
     def _paths(self) -> PathSearch:

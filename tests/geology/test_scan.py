@@ -120,3 +120,5 @@ def test_a_scan_can_be_limited_to_some_slips():
     assert found.profile.slip[0] == pytest.approx(150 / np.sin(np.radians(60)), abs=1)
     assert found.curves["constant"].slip[[0, -1]].tolist() == [100, 250]
     assert found.local_correlation.shape == (len(found.slip), len(found.traces.s))
+    close = sw.scan(case.section, case.interpretation.faults[0], slips=[172, 173, 174])
+    assert close.profile.slip[0] == pytest.approx(found.profile.slip[0], abs=1)
