@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 from shapely import LineString
 
 from seiswidgets.core.mesh import Mesh, triangle_areas
@@ -60,7 +61,7 @@ class ClosedForm:
         began: float | None = None,
         burial: np.ndarray | None = None,
     ) -> Stage:
-        """The stage that moves a mesh's vertices; their displacement is smoothed where it would turn triangles over.
+        """The stage that moves a mesh's vertices; where it would turn triangles over, they move as one.
 
         Raises
         ------
@@ -110,18 +111,20 @@ def _squashed(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
 
 
 def _without_flips(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
-    """Vertices whose displacement is averaged with their neighbours' until no triangle is turned over."""
-    if not _squashed(mesh, vertices).any():
-        return vertices
-    count = len(vertices)
-    pairs = np.vstack([mesh.edges, mesh.edges[:, ::-1]])
-    mean = csr_array((np.ones(len(pairs)), pairs.T), shape=(count, count))
-    mean = mean.multiply(1 / np.maximum(mean.sum(axis=1), 1)[:, None]).tocsr()
-    displacement = vertices - mesh.vertices
+    """Vertices after a step, where groups of triangles that it would turn over, as slivers, move without deformation.
+
+    Neighbours that this turns over join their group, until no triangle is turned over.
+    """
+    displacement, count = vertices - mesh.vertices, len(vertices)
+    stiff = np.zeros(len(mesh.triangles), bool)
     for _ in range(SMOOTHINGS):
-        bad = _squashed(mesh, mesh.vertices + displacement)
-        if not bad.any():
+        bad = _squashed(mesh, vertices)
+        if not (bad & ~stiff).any():
             break
-        moved = np.unique(mesh.triangles[bad])
-        displacement[moved] = (mean @ displacement)[moved]
-    return np.asarray(mesh.vertices + displacement)
+        stiff |= bad
+        pairs = mesh.triangles[stiff][:, [0, 1, 1, 2]].reshape(-1, 2)
+        _, group = connected_components(csr_array((np.ones(len(pairs)), pairs.T), shape=(count, count)), directed=False)
+        sizes = np.bincount(group)
+        means = [np.bincount(group, displacement[:, axis]) / sizes for axis in (0, 1)]
+        vertices = mesh.vertices + np.column_stack(means)[group]
+    return vertices

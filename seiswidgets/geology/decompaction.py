@@ -11,6 +11,7 @@ from functools import partial
 
 import numpy as np
 import shapely
+from shapely import LineString
 
 from seiswidgets.core.mesh import Mesh
 from seiswidgets.core.point_location import barycentric_coefficients
@@ -26,6 +27,7 @@ from seiswidgets.geology.stage import DECOMPACT, STRIP, UNERODE, Stage
 from seiswidgets.geology.stratigraphy import Stratigraphy
 
 PARTS = 4  # that each stretch of a column is divided into
+NEAR = 10.0  # samples: a line that keeps to the border for longer runs along it
 INWARDS = 1e-3  # of a stretch: its porosity is read inside it
 
 
@@ -167,7 +169,7 @@ def decompact_stage(
     progress : callable, optional
     """
     began = time.perf_counter()
-    tops = {(HORIZON, _name(stratigraphy, index)): lines for index, lines in layers.tops.items()}
+    tops = {(HORIZON, _name(stratigraphy, index)): _off_border(lines, domain) for index, lines in layers.tops.items()}
     mesh = domain.mesh(tops | {(FAULT, ""): layers.faults})
     x, z = mesh.vertices.T
     columns = layers.columns(x, z, PARTS).down_to(domain.outline.bounds[3])
@@ -181,6 +183,16 @@ def decompact_stage(
     return ClosedForm(DECOMPACT, tuple(stratigraphy.tops), domain, progress).stage(
         mesh, vertices, observe, notes, began, burial
     )
+
+
+def _off_border(lines: Sequence[LineString], domain: RestorationDomain) -> list[LineString]:
+    """The parts of lines that do not run along the border, which a mesh follows anyway."""
+    border = domain.outline.boundary.buffer(domain.sample)
+    parts: list[LineString] = []
+    for line in lines:
+        runs_along = line.intersection(border).length > NEAR * domain.sample
+        parts += shapely.get_parts(line.difference(border)).tolist() if runs_along else [line]
+    return [part for part in parts if part.length > domain.sample]
 
 
 def _name(stratigraphy: Stratigraphy, index: int) -> str:

@@ -59,3 +59,16 @@ def test_points_go_there_and_back(restored):
     points = np.random.default_rng(0).uniform((x_min, z_min), (x_max, z_max), (100_000, 2))
     back = flat.to_original(flat.to_restored(points))
     assert np.abs((back - points) * section.metres).max() < 1e-6 * flat.stages[0].spacing
+
+
+@pytest.mark.parametrize(("name", "unfold"), [("teapot", "vertical shear"), ("f3", "length")])
+def test_it_goes_back_through_time(name, unfold):
+    section, picks = real_section(name)
+    by_depth = sorted(picks.horizons, key=lambda pick: np.vstack(pick.pieces)[:, 1].mean())
+    layers = [sw.Layer(None, 0.0), *(sw.Layer(pick.name, 10.0 * age) for age, pick in enumerate(by_depth, 1))]
+    plan = sw.Plan.sequential(sw.Stratigraphy(layers), picks, isostasy=sw.Isostasy(5e3), unfold=unfold)
+    restored = plan.restore(section, picks)
+    assert not restored.skipped
+    assert len(restored.stages) == len(plan.steps)
+    assert all((stage.area_ratio > 0).all() for stage in restored.stages)
+    assert restored.settled
