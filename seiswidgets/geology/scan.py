@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from html import escape
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,6 +18,7 @@ from seiswidgets.geology.proposals import Proposal, proposals
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.slip_search import KINDS, WINDOW, Curve, Peak, SlipSearch
+from seiswidgets.geology.tables import Table
 
 MOST = 0.5  # of the fault's length: largest slip that is tried
 CLOSE = 8.0  # slips per wavelength that are tried
@@ -105,6 +107,31 @@ class Scan:
     def heave(self, s: ArrayLike, profile: SlipProfile | None = None) -> np.ndarray:
         """Horizontal component of the slip at some positions, in the unit of x, positive for a normal fault."""
         return self.traces.offsets(s, profile or self.profile)[:, 0]
+
+    @property
+    def table(self) -> Table:
+        """The peaks of the best curve, with throw and heave at the middle of the fault."""
+        section, middle = self.traces.section, [self.traces.length / 2]
+        rows = tuple(
+            (
+                peak.slip,
+                float(self.throw(middle, peak.profile)[0]),
+                float(self.heave(middle, peak.profile)[0]),
+                peak.correlation,
+                float(peak.significance),
+                peak.weight,
+            )
+            for peak in self.peaks
+        )
+        units = {"slip": "m", "throw": section.z_unit, "heave": section.x_unit}
+        shares = dict.fromkeys(("correlation", "significance", "likelihood"), "1")
+        return Table(f"Matches at fault {self.fault}, {self.best.kind} slip", {**units, **shares}, rows)
+
+    def __repr__(self) -> str:
+        return "\n".join([str(self.table), *(finding.text for finding in self.findings)])
+
+    def _repr_html_(self) -> str:
+        return self.table._repr_html_() + "".join(f"<p>{escape(finding.text)}</p>" for finding in self.findings)
 
 
 def scan(

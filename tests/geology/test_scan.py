@@ -122,3 +122,12 @@ def test_a_scan_can_be_limited_to_some_slips():
     assert found.local_correlation.shape == (len(found.slip), len(found.traces.s))
     close = sw.scan(case.section, case.interpretation.faults[0], slips=[172, 173, 174])
     assert close.profile.slip[0] == pytest.approx(found.profile.slip[0], abs=1)
+
+
+def test_a_scan_prints_its_peaks_with_throw_and_heave():
+    case = sw.synthetic.planar_fault(throw=150)
+    scanned = sw.scan(case.section, case.interpretation.faults[0])
+    np.testing.assert_allclose(scanned.table.column("throw")[0], 150, atol=case.section.dz)
+    assert repr(scanned).startswith("Matches at fault F1")
+    assert len(repr(scanned).splitlines()) == 2 + len(scanned.peaks) + len(scanned.findings)
+    assert "throw (m)" in scanned._repr_html_()
