@@ -27,7 +27,8 @@ WATCH = """() => {
   const look = () => {
     const row = canvas.getContext("2d").getImageData(0, canvas.height / 3, canvas.width, 1).data.join();
     const part = (name) => plot.querySelector(`.${name}`).outerHTML;
-    return { picture: row, lines: part("strokes"), axes: part("axes") + plot.parentElement.innerText };
+    const text = plot.parentElement.innerText.replace(" · 0 shows all of the rock", "");  // a hint, when rock leaves
+    return { picture: row, lines: part("strokes"), axes: part("axes") + text };
   };
   window.seen = [look()];
   const watch = () => {
