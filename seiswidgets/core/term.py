@@ -64,7 +64,7 @@ class PaperTerm(Term, Protocol):
 
 
 def same_terms(terms: Sequence[Term], earlier: Sequence[Term]) -> list[Term]:
-    """Terms, in the place of some the same ones of an earlier solution, which know their rows."""
+    """Replace terms by equal ones of an earlier solution, which know their rows already."""
     return [next((known for known in earlier if _are_same(known, term)), term) for term in terms]
 
 

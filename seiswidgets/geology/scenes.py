@@ -54,6 +54,6 @@ def scenes(stages: Sequence[Stage]) -> tuple[Scene, ...]:
 
 
 def action(stage: Stage) -> str:
-    """What a stage does, and to which picks unless it is to all rock: "unfaulting F1 and F2"."""
+    """Name a stage's action, and its picks unless it acts on all rock: "unfaulting F1 and F2"."""
     picks = () if stage.kind in WHOLE else stage.outcome.picks
     return " ".join([ACTIONS.get(stage.kind, stage.kind), " and ".join(picks)]).strip()

@@ -152,7 +152,7 @@ def test_the_peaks_of_a_scan_are_matches():
 
 
 def test_pieces_go_on_ending_at_their_faults():
-    """Where a fault moves by many traces, its horizons end at it all the same, and none crosses it."""
+    """Horizons end at a fault that moves by many traces, and none crosses it."""
     case = sw.synthetic.faulted_fold()
     drawn = run(sw.Uncertainty(horizon=2, fault=4, dip=3), 1, case=case).study.perturbation
     for index in range(20):

@@ -1,4 +1,4 @@
-"""What a frame of a drag sends to the page: vertices and lines, but no mesh that the page has."""
+"""Messages of a frame of a drag: vertices and lines, but no mesh that the page has."""
 
 import json
 

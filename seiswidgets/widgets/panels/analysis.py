@@ -28,7 +28,7 @@ NOT_RESTORED = HINT.format("Nothing has been restored yet.")
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """What is measured, unaffected by later edits."""
+    """The objects to measure, unaffected by later edits."""
 
     restored: Restoration
     picks: Interpretation

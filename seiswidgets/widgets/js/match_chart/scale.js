@@ -119,7 +119,7 @@ export class Scale {
 }
 
 /**
- * Round numbers in a range, at most so many.
+ * Round numbers in a range, no more than `most`.
  *
  * @param {number} low
  * @param {number} high

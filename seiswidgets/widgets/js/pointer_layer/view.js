@@ -147,7 +147,7 @@ export class LayerView {
     drawGrown(this.elements.grown, nearestHandle(this.handles, this.pointer));
   }
 
-  /** The strokes, decoded once, and in the place of some those that have changed. */
+  /** The strokes, decoded once, those that have changed replaced. */
   get strokes() {
     const states = this.model.get("strokes");
     if (this.decoded.states !== states) this.decoded = { states, strokes: states.map(decodeStroke) };
