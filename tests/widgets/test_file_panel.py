@@ -642,6 +642,17 @@ def choose_results(results, *endings):
         box.value = ending in endings
 
 
+def test_measures_are_exported_as_tables_with_units(restored, tmp_path):
+    results = restored.files.results
+    results.folder.value = str(tmp_path / "out")
+    choose_results(results, "throw.csv", "growth.csv", "balance.csv", "extension.csv")
+    results.export()
+    assert results.wait(LONG)
+    heads = {path.name.rpartition("-")[2]: path.read_text().splitlines()[0] for path in results.written}
+    assert heads["throw.csv"] == "fault,horizon,age (Ma),depth (m),throw (m),heave (m),slip (m)"
+    assert len(heads) == 4
+
+
 def export_reports(app, folder):
     """Begin to export both reports into a folder."""
     results = app.files.results

@@ -13,13 +13,18 @@ from seiswidgets import plot
 from seiswidgets.core.deformation import USUAL_SPAN
 from seiswidgets.errors import Keyword, SeiswidgetsError, SettingError
 from seiswidgets.errors import Text as Message
+from seiswidgets.geology.balance import balance
+from seiswidgets.geology.fault_history import fault_growth, fault_throws
+from seiswidgets.geology.histories import extension_history
 from seiswidgets.geology.pick_colours import PickColours
 from seiswidgets.geology.picks import Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.stratigraphy import Stratigraphy
+from seiswidgets.geology.tables import Table
 from seiswidgets.io.exports.meshes import save_mesh
 from seiswidgets.io.exports.reports import save_report
 from seiswidgets.io.exports.sections import save_section
+from seiswidgets.io.exports.tables import save_table
 from seiswidgets.io.exports.xarrays import displacement
 from seiswidgets.io.files import atomic_write, make_folder, user_path
 from seiswidgets.io.session.sources import SectionSource
@@ -218,6 +223,22 @@ def _write_segy(result: Result, path: Path) -> None:
         save_section(result.restoration, path, like=source.name, x0=result.restoration.original.x0, **keywords)
 
 
+def _restored(result: Result) -> tuple[Restoration, Interpretation]:
+    return result.restoration, result.interpretation
+
+
+def _throws(result: Result) -> Table:
+    return fault_throws(result.restoration.original, result.interpretation, result.stratigraphy)
+
+
+def _growth(result: Result) -> Table:
+    return fault_growth(result.restoration.original, result.interpretation, result.stratigraphy)
+
+
+def _of_table(measure: Callable[[Result], Table]) -> Writer:
+    return lambda result, path: save_table(measure(result), path)
+
+
 def _of_restoration(save: Callable[[Restoration, Path], None]) -> Writer:
     return lambda result, path: save(result.restoration, path)
 
@@ -233,5 +254,9 @@ WRITERS: dict[str, tuple[str, Writer]] = {
     "report.html": ("report (.html)", _write_report),
     "handout.html": ("handout, with live panes (.html)", _write_handout),
     "displacement.nc": ("displacement (.nc)", _write_displacement),
+    "throw.csv": ("throw along faults (.csv)", _of_table(_throws)),
+    "growth.csv": ("growth of faults (.csv)", _of_table(_growth)),
+    "balance.csv": ("balance of beds (.csv)", _of_table(lambda result: balance(*_restored(result)).tables[0])),
+    "extension.csv": ("extension by step (.csv)", _of_table(lambda result: extension_history(*_restored(result)))),
 }
 DEFAULTS = ("restored.npz", "figure.png", "report.html")
