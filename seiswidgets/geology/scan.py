@@ -23,6 +23,7 @@ from seiswidgets.geology.tables import Table
 MOST = 0.5  # of the fault's length: largest slip that is tried
 CLOSE = 8.0  # slips per wavelength that are tried
 UNRELATED = 3  # traces that chance is judged by
+WORDS = {2: "two", 3: "three"}
 RIVAL = 0.2  # likelihood, relative to the best, of a peak that cannot be excluded
 
 Progress = Callable[[float], bool | None]
@@ -36,7 +37,8 @@ class Scan:
     ----------
     traces : FaultTraces
     curves : dict of str to Curve
-        For slip that is "constant", "linear", "elliptic" or "varying" along the fault.
+        For slip that is "constant", "linear", "elliptic" or "varying" along the fault, and "piecewise" if intervals
+        were given.
     proposals : tuple of Proposal
         Counterparts of the horizons that reach the fault on one side.
     findings : tuple of Finding
@@ -140,6 +142,7 @@ def scan(
     horizons: Horizon | Sequence[Horizon] = (),
     *,
     slips: ArrayLike | None = None,
+    intervals: ArrayLike | None = None,
     gap: int = 2,
     width: int = 8,
     progress: Progress | None = None,
@@ -159,6 +162,9 @@ def scan(
     slips : array, optional
         Slips to try, in metres of rock along the fault, positive for a normal fault, in increasing order; by default up
         to half the fault's length, either way.
+    intervals : array, optional
+        Ends of intervals along the fault, in metres of rock from its upper end and in increasing order, such as the
+        cut-offs of horizons: another curve is that of slip which is linear in each of them.
     gap, width : int
         As for `cross_fault_correlation`.
     progress : callable(share), optional
@@ -170,7 +176,7 @@ def scan(
         If the fault lies outside the section, all amplitudes beside it are alike, or fewer than eight samples have data
         on both sides.
     SettingError
-        If the slips are fewer than three, or not in increasing order.
+        If the slips are fewer than three, the ends of intervals fewer than two, or not in increasing order.
     Cancelled
         If ``progress`` returned False.
 
@@ -184,14 +190,17 @@ def scan(
     """
     traces = fault_traces(section, fault, gap, width)
     tried = _tried(traces, slips)
-    matching = SlipSearch(traces, traces.pair, tried)
+    ends = np.empty(0) if intervals is None else _increasing("intervals", intervals, 2)
+    matching = SlipSearch(traces, traces.pair, tried, ends)
     chances = []
     for turn in range(UNRELATED):
         _report(progress, (turn + 1) / (UNRELATED + 2))
         upside_down = np.roll(traces.pair.second[::-1], turn * len(traces.s) // UNRELATED)
-        chances.append(SlipSearch(traces, replace(traces.pair, second=upside_down), tried).chances())
+        chances.append(SlipSearch(traces, replace(traces.pair, second=upside_down), tried, ends).chances())
     _report(progress, (UNRELATED + 1) / (UNRELATED + 2))
-    curves = {kind: matching.curve(kind, max(chance[kind] for chance in chances)) for kind in KINDS}
+    curves = {
+        kind: matching.curve(kind, max(chance[kind] for chance in chances)) for kind in KINDS if kind in chances[0]
+    }
     found = Scan(traces, curves)
     given = [horizons] if isinstance(horizons, Horizon) else list(horizons)
     counterparts = proposals(traces, found.profile, Correlation.of_profile(traces, found.profile), given)
@@ -208,10 +217,17 @@ def _tried(traces: FaultTraces, slips: ArrayLike | None) -> np.ndarray:
         step = min(traces.wavelength / CLOSE, MOST * traces.length / 20)
         count = int(MOST * traces.length / step)
         return step * np.arange(-count, count + 1)
-    tried = np.asarray(slips, float)
-    if tried.ndim != 1 or len(tried) < 3 or not np.isfinite(tried).all() or (np.diff(tried) <= 0).any():
-        raise SettingError("slips must be three or more numbers in increasing order, in metres of rock")
-    return tried
+    return _increasing("slips", slips, 3)
+
+
+def _increasing(name: str, values: ArrayLike, least: int) -> np.ndarray:
+    try:
+        numbers = np.asarray(values, float)
+    except (TypeError, ValueError):
+        numbers = np.empty(0)
+    if numbers.ndim != 1 or len(numbers) < least or not np.isfinite(numbers).all() or (np.diff(numbers) <= 0).any():
+        raise SettingError(f"{name} must be {WORDS[least]} or more numbers in increasing order, in metres of rock")
+    return numbers
 
 
 def _findings(scan: Scan) -> list[Finding]:

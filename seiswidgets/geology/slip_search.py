@@ -12,7 +12,7 @@ from seiswidgets.geology.correlation import correlation_of, significance
 from seiswidgets.geology.fault_traces import FaultTraces
 from seiswidgets.geology.slip_profile import SlipProfile
 
-CONSTANT, LINEAR, ELLIPTIC, VARYING = KINDS = "constant", "linear", "elliptic", "varying"
+KINDS = CONSTANT, LINEAR, ELLIPTIC, PIECEWISE, VARYING = "constant", "linear", "elliptic", "piecewise", "varying"
 WINDOW, NODES, KNOTS = 0.35, 0.5, 0.25  # of the wavelength: of local correlation, of paths and of their refinement
 STEEPEST, PATH_STIFFNESS = 0.8, 0.05  # metres of slip per metre of fault; score lost by a change of one lag
 STIFFNESS = 5000.0  # times the variance of what does not match: weight of the slip's second differences
@@ -61,10 +61,11 @@ class Curve:
 
     Attributes
     ----------
-    kind : {"constant", "linear", "elliptic", "varying"}
-        How the slip may vary along the fault; elliptic slip dies out at both its ends.
+    kind : {"constant", "linear", "elliptic", "varying", "piecewise"}
+        How the slip may vary along the fault; elliptic slip dies out at both its ends, piecewise slip is linear in each
+        interval.
     slip, correlation : arrays, shape (k,)
-        In metres of rock; for varying slip the mean of the local correlation.
+        In metres of rock; for varying and piecewise slip the mean of the local correlation.
     peaks : tuple of Peak
         At least one, the likeliest first.
     chance : float
@@ -113,11 +114,14 @@ class SlipSearch:
         Its walls, or others of the same length.
     tried : array, shape (k,)
         Slips, in increasing order.
+    intervals : array, shape (j,)
+        Ends of the intervals of piecewise slip, in metres along the fault.
     """
 
     traces: FaultTraces
     pair: TracePair
     tried: np.ndarray
+    intervals: np.ndarray
 
     def chances(self) -> Mapping[str, float]:
         """The highest correlation of each kind."""
@@ -127,14 +131,18 @@ class SlipSearch:
         }
         elliptic = self._at(ELLIPTIC, int(np.argmax(self._of_shape(ELLIPTIC))))
         found = starts | {LINEAR: self._linear(starts.values()), ELLIPTIC: elliptic}
+        if len(self.intervals):
+            found[PIECEWISE] = self._piecewise(starts[VARYING])
         return {kind: self._correlation(slip) for kind, slip in found.items()}
 
     def curve(self, kind: str, chance: float) -> Curve:
         """The curve of one kind, and its peaks."""
-        correlation = {LINEAR: self._of_lines, VARYING: self._of_paths}.get(kind, self._of_shape(kind))
-        axis = self._lags if kind == VARYING else self.tried
+        on_paths = kind in (VARYING, PIECEWISE)
+        correlation = self._of_paths if on_paths else self._of_lines if kind == LINEAR else self._of_shape(kind)
+        axis = self._lags if on_paths else self.tried
         peaks = self._peaks(kind, axis, correlation)
-        freedom = {LINEAR: 2.0, VARYING: 2 + self.traces.length / (2 * self.traces.wavelength)}.get(kind, 1.0)
+        varying = 2 + self.traces.length / (2 * self.traces.wavelength)
+        freedom = {LINEAR: 2.0, VARYING: varying, PIECEWISE: float(len(self.intervals))}.get(kind, 1.0)
         return Curve(kind, axis, correlation, peaks, chance, freedom)
 
     def _peaks(self, kind: str, axis: np.ndarray, correlation: np.ndarray) -> tuple[Peak, ...]:
@@ -162,8 +170,9 @@ class SlipSearch:
 
     def _at(self, kind: str, index: int) -> np.ndarray:
         """The slip at a peak of a curve, refined; shape (n,)."""
-        if kind == VARYING:
-            return self._varying(index)
+        if kind in (VARYING, PIECEWISE):
+            slips = self._varying(index)
+            return slips if kind == VARYING else self._piecewise(slips)
         slip = float(self.tried[index])
         if kind != LINEAR:
             shape = self._shape(kind)
@@ -252,6 +261,11 @@ class SlipSearch:
         variance = max(float(np.median(apart**2)) / NORMAL, 1e-4) if len(apart) else 1.0
         hats = _hats(len(slip), max(2, round(KNOTS * wavelength / step)))
         return refine_lags(self.pair, slip, hats, STIFFNESS * variance / (step * wavelength), slice(None))
+
+    def _piecewise(self, start: np.ndarray) -> np.ndarray:
+        """The best slip that is linear in each interval, from a slip that varies freely."""
+        hats = [np.interp(self.traces.s, self.intervals, row) for row in np.eye(len(self.intervals))]
+        return refine_lags(self.pair, start, np.column_stack(hats), 0.0, self._within)
 
     def _linear(self, starts: Iterable[np.ndarray]) -> np.ndarray:
         """The best line from any of some starts."""

@@ -9,6 +9,8 @@ import seiswidgets as sw
 from seiswidgets.geology.forward_model import WAVELENGTH, make_synthetic
 from seiswidgets.geology.kinematics import History, Straight, Survey
 
+PIECES = (0.0, 0.3, 0.7, 1.0)  # ends of intervals of piecewise slip, as shares of a fault's length
+
 
 @dataclass(frozen=True)
 class VaryingSlip:
@@ -46,6 +48,7 @@ def slipped(kind, slip, seed=0, noise=0.5, dip=60.0):
             "constant": sw.SlipProfile([0], [slip]),
             "linear": sw.SlipProfile([0, length], [slip / 2, slip]),
             "elliptic": _elliptic(slip, length),
+            "piecewise": sw.SlipProfile(np.array(PIECES) * length, [slip / 2, slip / 2, slip, slip]),
         }[kind]
         slips = [VaryingSlip(fault, profile, -length / 2, side) for side in (-1, 1)]
         case = make_synthetic(kind, survey, (), History(faults=(fault,), slips=tuple(slips)))

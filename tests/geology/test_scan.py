@@ -24,6 +24,15 @@ def test_the_slip_is_found_in_noise(kind, slip):
     assert found.peaks[0].weight > 0.8
 
 
+@pytest.mark.parametrize("slip", [120, -120])
+def test_slip_that_is_linear_in_intervals_is_found_where_these_are_given(slip):
+    case, truth = slipped("piecewise", slip)
+    found = sw.scan(case.section, case.interpretation.faults[0], intervals=truth.s)
+    assert found.best.kind == "piecewise"
+    assert np.mean(np.abs(throw_errors(case, found, truth)) <= 1) >= 0.95
+    assert "piecewise" not in sw.scan(case.section, case.interpretation.faults[0]).curves
+
+
 def test_a_listric_fault_has_a_constant_slip():
     case = sw.synthetic.listric_fault()
     found = sw.scan(case.section, case.interpretation.faults[0])
@@ -131,3 +140,10 @@ def test_a_scan_prints_its_peaks_with_throw_and_heave():
     assert repr(scanned).startswith("Matches at fault F1")
     assert len(repr(scanned).splitlines()) == 2 + len(scanned.peaks) + len(scanned.findings)
     assert "throw (m)" in scanned._repr_html_()
+
+
+@pytest.mark.parametrize("intervals", [[100], [100, 50], "F1"])
+def test_intervals_must_increase(intervals):
+    case = sw.synthetic.planar_fault()
+    with pytest.raises(sw.SettingError, match="intervals must be two or more numbers in increasing order"):
+        sw.scan(case.section, case.interpretation.faults[0], intervals=intervals)
