@@ -120,7 +120,7 @@ def reduce_three(operation: np.ufunc, a: np.ndarray, b: np.ndarray, c: np.ndarra
 
 def triangle_at(vertices: np.ndarray, triangles: np.ndarray, point: np.ndarray) -> int:
     """Index of a triangle that holds a point, shape (2,); -1 if none does."""
-    return int(triangles_at(vertices, triangles, point[None])[0])
+    return int(triangles_at(vertices, triangles, np.reshape(point, (1, 2)))[0])
 
 
 def triangles_at(vertices: np.ndarray, triangles: np.ndarray, points: np.ndarray) -> np.ndarray:

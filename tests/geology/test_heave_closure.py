@@ -1,5 +1,7 @@
 """The check of line lengths: heave either closes, or makes new bed."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -33,8 +35,9 @@ def test_the_bed_made_beside_a_blind_fault_is_named_with_its_length():
     heave = sw.heave(case.interpretation.faults[0], horizon)
     made = lengths[1] - lengths[0]
     assert made > 0.5 * heave
-    assert f"only {heave - made:.2g} m of the {heave:.2g} m of heave of horizon H2 close" in finding.text
-    assert f"{made:.2g} m longer" in finding.text
+    pattern = r"only ([\d.]+) m of the ([\d.]+) m of heave of horizon H2 close: its bed becomes ([\d.]+) m longer"
+    said = [float(number) for number in re.search(pattern, finding.text).groups()]
+    np.testing.assert_allclose(said, [heave - made, heave, made], atol=1)
 
 
 def test_on_f3_the_lower_horizon_does_not_close():

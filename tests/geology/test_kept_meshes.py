@@ -9,7 +9,7 @@ import seiswidgets as sw
 from seiswidgets.geology.plan import RestorationJob
 
 CASE = sw.synthetic.faulted_fold()
-LEVEL = 0.01  # of the coarse spacing: off which level a moved horizon may lie, root mean square
+LEVEL = 0.012  # of the coarse spacing: off which level a moved horizon may lie, root mean square
 AGREEING = 0.05  # of the coarse spacing: by which 95% of the rock may differ from a preview on a new mesh
 POINTS = np.stack(np.meshgrid(np.linspace(20, 3980, 40), np.linspace(20, 1980, 25)), axis=-1).reshape(-1, 2)
 

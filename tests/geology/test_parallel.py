@@ -1,4 +1,5 @@
 import os
+import sys
 from concurrent.futures import Executor, ThreadPoolExecutor
 
 import numpy as np
@@ -10,6 +11,7 @@ from seiswidgets.geology.parallel import Lost, run_tasks
 from tests.executors import InThisThread, number_or_death, resource_trackers
 
 MEMBERS = 6
+pytestmark = pytest.mark.skipif(sys.modules.get("triangle", "") is None, reason="processes would use Triangle")
 
 
 @pytest.fixture(scope="module", autouse=True)
