@@ -22,6 +22,12 @@ def test_import_loads_neither_jupyter_nor_what_is_slow(loaded):
     assert not [package for package in loaded if package.startswith(("jupyter", "ipy"))]
 
 
+def test_the_app_appears_without_what_only_its_tabs_need():
+    code = "import sys, seiswidgets; seiswidgets.RestorationApp; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert {"loky", "scipy.signal", "scipy.stats", "matplotlib.pyplot"}.isdisjoint(loaded)
+
+
 def test_every_public_name_is_there():
     assert len(seiswidgets.__all__) > 40
     assert set(seiswidgets.__all__) <= set(dir(seiswidgets))

@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING, Any, TypedDict, Unpack, overload
 import numpy as np
 
 from seiswidgets.errors import Keyword, SectionError
-from seiswidgets.geology.ensembles.ensemble import Ensemble
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import METRES, SECONDS, Section
 from seiswidgets.geology.tables import Table
 from seiswidgets.geology.validation import checked_kind
-from seiswidgets.io.exports.ensembles import ensemble_dataset
 from seiswidgets.io.exports.reports import stages_as_line
 from seiswidgets.io.exports.tables import table_dataset
 from seiswidgets.io.files import import_optional
@@ -19,6 +17,8 @@ from seiswidgets.signatures import strict_keywords
 
 if TYPE_CHECKING:
     import xarray
+
+    from seiswidgets.geology.ensembles.ensemble import Ensemble
 
 EVEN = 1e-3  # of a spacing: tolerance of a coordinate
 ATTRIBUTES = ("velocity", "name", "credit")
@@ -39,11 +39,11 @@ def to_xarray(section: Section) -> "xarray.DataArray": ...
 
 
 @overload
-def to_xarray(section: Ensemble | Table) -> "xarray.Dataset": ...
+def to_xarray(section: "Ensemble | Table") -> "xarray.Dataset": ...
 
 
 @strict_keywords
-def to_xarray(section: Section | Ensemble | Table) -> "xarray.DataArray | xarray.Dataset":
+def to_xarray(section: "Section | Ensemble | Table") -> "xarray.DataArray | xarray.Dataset":
     """Convert a section to an array of dimensions ("z", "x"), with units and the rest in coordinates and attributes.
 
     An ensemble becomes a Dataset: each quantity by ``member``, with its percentiles and its shares of variance, the
@@ -57,11 +57,10 @@ def to_xarray(section: Section | Ensemble | Table) -> "xarray.DataArray | xarray
     DataError
         If xarray is not installed.
     """
-    if isinstance(section, Ensemble):
-        return ensemble_dataset(section)
     if isinstance(section, Table):
         return table_dataset(section)
-    checked_kind(section, Section, "section")
+    if not isinstance(section, Section):
+        return _of_ensemble(section)
     return import_optional("xarray", "to make an xarray.DataArray").DataArray(
         section.amplitude,
         coords=_coordinates(section),
@@ -69,6 +68,15 @@ def to_xarray(section: Section | Ensemble | Table) -> "xarray.DataArray | xarray
         name="amplitude",
         attrs={"long_name": "amplitude", **_attributes(section)},
     )
+
+
+def _of_ensemble(ensemble: "Ensemble") -> "xarray.Dataset":
+    from seiswidgets.geology.ensembles.ensemble import Ensemble  # slow to import: the app appears sooner without it
+    from seiswidgets.io.exports.ensembles import ensemble_dataset
+
+    if not isinstance(ensemble, Ensemble):
+        checked_kind(ensemble, Section, "section")
+    return ensemble_dataset(ensemble)
 
 
 @strict_keywords

@@ -1,14 +1,17 @@
 """Reports on the stages of a restoration."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from ipywidgets import HTML, VBox
 
-from seiswidgets.geology.ensembles.ensemble import Ensemble
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.widgets.messages import HINT, in_the_app
 from seiswidgets.widgets.severity import remark
 from seiswidgets.widgets.verdict import title_of
+
+if TYPE_CHECKING:  # slow to import, and the app can do without it at first
+    from seiswidgets.geology.ensembles.ensemble import Ensemble
 
 NOTHING = HINT.format("Nothing has been restored yet.")
 
@@ -34,6 +37,6 @@ class Reports(VBox):
         tables = [replace(stage.report, findings=())._repr_html_() for stage in restoration.stages]
         self.page.value = "".join([*remarks, *tables]) or NOTHING
 
-    def show_errors(self, ensemble: Ensemble | None) -> None:
+    def show_errors(self, ensemble: "Ensemble | None") -> None:
         """Show the error bars of an ensemble below the reports, or none."""
         self.errors.value = f"<b>Error bars</b>{ensemble._repr_html_()}" if ensemble else ""
