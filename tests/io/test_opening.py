@@ -113,7 +113,9 @@ def test_a_zip_says_unzip_it(tmp_path, name, members, match):
             act(tmp_path / name)
 
 
-@pytest.mark.parametrize(("name", "content"), [("a.sgy.gz", gzip.compress(b"a", mtime=0)), ("a.7z", b"7z\xbc\xaf\x27\x1c12")])
+@pytest.mark.parametrize(
+    ("name", "content"), [("a.sgy.gz", gzip.compress(b"a", mtime=0)), ("a.7z", b"7z\xbc\xaf\x27\x1c12")]
+)
 def test_other_archives_say_unpack(tmp_path, name, content):
     (tmp_path / name).write_bytes(content)
     with pytest.raises(sw.DataError, match=r"is packed with (gzip|7-Zip); unpack it"):
