@@ -16,6 +16,7 @@ from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.layers import layers_of
 from seiswidgets.geology.picks import IGNORE, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.stage import DECOMPACT
 from seiswidgets.geology.tables import Table
 
 INSET = 1e-3  # samples between the border of a layer and the points that are carried
@@ -126,7 +127,8 @@ def balance(restored: Restoration, interpretation: Interpretation) -> Balance:
     """Compare lengths of horizons, areas of layers, and heave before and after restoring.
 
     In a section of plane strain without compaction beds keep their length and layers their area (Dahlstrom 1969). Heave
-    that no change of width matches was taken up by strain of the beds.
+    that no change of width matches was taken up by strain of the beds. Decompaction changes areas, so that there are
+    no findings about them after it.
 
     Parameters
     ----------
@@ -155,9 +157,10 @@ def balance(restored: Restoration, interpretation: Interpretation) -> Balance:
     beds = [_bed(restored, interpretation, horizon) for horizon in horizons]
     layers = list(_layers(restored, interpretation, horizons))
     edges = list(_edges(restored))
+    expanded = any(stage.kind == DECOMPACT for stage in restored.stages)
     found = (
         *_of_beds(restored, beds),
-        *_of_layers(layers, len(horizons) + 1),
+        *([] if expanded else _of_layers(layers, len(horizons) + 1)),
         *_of_edges(restored, edges),
     )
     return Balance(tuple(beds), tuple(layers), tuple(edges), found)

@@ -85,7 +85,7 @@ class DepthConversion:
 
     @property
     def _metres(self) -> float:
-        return self.time_section.unit_of_x
+        return float(self.time_section.metres[0])
 
     @property
     def _seconds(self) -> float:

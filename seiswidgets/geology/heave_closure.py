@@ -33,11 +33,11 @@ def heave_findings(
     unit = float(domain.section.metres[0])
     found = []
     for horizon, change in made.items():
-        heaves = {cutoff.fault: cutoff.heave * unit for cutoff in cutoffs if cutoff.horizon == horizon}
-        heave = sum(heaves.values())
+        heaves = [(cutoff.heave * unit, cutoff.fault) for cutoff in cutoffs if cutoff.horizon == horizon]
+        heave = sum(heave for heave, _ in heaves)
         if not is_open(heave, change, unit * domain.section.dx):
             continue
-        fault = max(heaves, key=lambda name: abs(heaves[name]))
+        _, fault = max(heaves, key=lambda pair: abs(pair[0]))
         point = where[fault, horizon]
         change_text = f"{domain.length(abs(change))} {'longer' if change > 0 else 'shorter'}"
         text = (

@@ -156,11 +156,6 @@ class Section:
         return np.asarray(np.asarray(points, float) / self.metres)
 
     @property
-    def unit_of_x(self) -> float:
-        """Metres in one unit of x."""
-        return METRES[self.x_unit]
-
-    @property
     def unit_of_time(self) -> float:
         """Seconds in one unit of z, which must be a time."""
         return SECONDS[self.z_unit]

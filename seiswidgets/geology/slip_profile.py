@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike
 from seiswidgets.errors import SettingError
 from seiswidgets.geology import validation
 
+CARRIED = 20  # positions of a carried profile: even a constant slip varies where the fault was stretched
+
 
 @dataclass(frozen=True)
 class SlipProfile:
@@ -54,6 +56,25 @@ class SlipProfile:
     def at(self, s: ArrayLike) -> np.ndarray:
         """Slip at some positions, in metres."""
         return np.interp(np.asarray(s, float), self.s, self.slip)
+
+    def carried(self, before: np.ndarray, after: np.ndarray) -> "SlipProfile":
+        """The profile after the fault was deformed, as by other velocities: the same points stay together.
+
+        Parameters
+        ----------
+        before, after : array, shape (n, 2)
+            Points along the fault from its upper end, in metres of rock; close enough together to follow its curve.
+        """
+        old, new = (np.append(0, np.cumsum(np.hypot(*np.diff(line, axis=0).T))) for line in (before, after))
+        first, last = (np.diff(new)[end] / np.diff(old)[end] for end in (0, -1))
+
+        def moved(s: np.ndarray) -> np.ndarray:
+            """Arc lengths on the deformed fault, straight on beyond its ends."""
+            return np.interp(s, old, new) + first * np.minimum(s, 0) + last * np.maximum(s - old[-1], 0)
+
+        s = np.union1d(self.s, old[:: max(1, len(old) // CARRIED)])
+        hanging_wall, footwall = moved(s + self.at(s) / 2), moved(s - self.at(s) / 2)
+        return SlipProfile(tuple((hanging_wall + footwall) / 2), tuple(hanging_wall - footwall))
 
 
 def checked_slip(slip: Mapping[str, SlipProfile] | None, faults: Sequence[str]) -> dict[str, SlipProfile]:

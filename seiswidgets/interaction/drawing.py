@@ -286,7 +286,7 @@ class Drawing:
             replace(pick, pieces=tuple(_mapped(pick, piece, line_map) for piece in pick.pieces)) for pick in self.picks
         ]
         draft = self.draft and replace(self.draft, points=_points(line_map(np.array(self.draft.points))))
-        return Drawing(tuple(picks), draft)
+        return replace(self, picks=tuple(picks), draft=draft)
 
     def lies_on(self, section: Section) -> bool:
         """Return True if no pick reaches beyond a section."""

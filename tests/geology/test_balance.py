@@ -134,3 +134,10 @@ def test_figures_have_a_line_for_each_fault_and_units():
         sw.plot.throws(sw.fault_throws(case.section, case.interpretation), against="time")
     burial = sw.plot.burial(sw.burial_history(unfaulted(case), (2000, 1500)))
     assert burial.get_ylabel() == "Depth of burial (m)"
+
+
+def test_rock_that_expands_by_decompaction_is_no_finding():
+    basin = sw.synthetic.compacted_basin()
+    restored = sw.Restoration(basin.section).decompact(basin.stratigraphy, basin.interpretation)
+    balance = sw.balance(restored, basin.interpretation)
+    assert not [finding for finding in balance.findings if finding.kind == "area"]

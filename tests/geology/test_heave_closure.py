@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.geology import heave_closure
+from seiswidgets.geology.report import CutOffReport
 from tests.sections import real_section
 
 
@@ -44,3 +46,10 @@ def test_on_f3_the_lower_horizon_does_not_close():
     section, picks = real_section("f3")
     restored = sw.Restoration(section).unfault(picks.faults, picks.horizons)
     assert "lower" in {finding.pick for finding in heave_findings(restored)}
+
+
+def test_heaves_of_several_places_at_one_fault_add_up():
+    domain = sw.Restoration(sw.synthetic.planar_fault().section).domain
+    twice = [CutOffReport("F1", "H1", 10.0, 30.0, 0.0)] * 2
+    (finding,) = heave_closure.heave_findings(twice, {"H1": 20.0}, {("F1", "H1"): np.array([2000.0, 600.0])}, domain)
+    assert "40 m of the 60 m of heave" in finding.text

@@ -109,3 +109,23 @@ def test_bad_fields_are_named_beside_them(app, model, fields, message):
     panel.convert_button.click()
     assert message in panel.notice.text
     assert app.section is before
+
+
+def test_a_prescribed_slip_brings_the_same_points_together_in_depth(app):
+    app, case = app
+    fault, horizon = app.interpretation.faults[0], app.interpretation.horizons[1]
+    (cutoff,) = sw.cutoffs(fault, horizon)
+    walls = [np.array([cutoff.hanging_wall, cutoff.footwall])]
+
+    def arcs(section, line, points):
+        top = section.to_rock(line.points[0])
+        return [np.hypot(*(section.to_rock(point) - top)) for point in points]
+
+    hanging_wall, footwall = arcs(app.section, fault, walls[0])  # nearly straight in rock, by one velocity
+    profile = sw.SlipProfile([(hanging_wall + footwall) / 2], [hanging_wall - footwall])
+    app.steps = [sw.Step("unfault", "F1", slip={"F1": profile})]
+    app.files.depth.convert()
+    deep = app.steps[0].slip["F1"]
+    slip = 150 / np.sin(np.deg2rad(60))
+    throw_at = case.interpretation.horizons[1].pieces[0][-1, 1] + 75
+    assert deep.at(throw_at / np.sin(np.deg2rad(60))) == pytest.approx(slip, rel=0.01)

@@ -3,15 +3,17 @@
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from ipywidgets import HTML, Button, Dropdown, HBox, Layout, Text, Textarea, VBox
 from numpy.typing import ArrayLike
 
 from seiswidgets.errors import SettingError
-from seiswidgets.geology.picks import HORIZON, Horizon
+from seiswidgets.geology.picks import FAULT, HORIZON, Horizon
 from seiswidgets.geology.plan import Plan
 from seiswidgets.geology.section import Section
+from seiswidgets.geology.slip_profile import SlipProfile
 from seiswidgets.geology.stratigraphy import Profile
 from seiswidgets.geology.validation import finite_number
 from seiswidgets.geology.velocity import ConstantVelocity, LayerCake, LinearVelocity, TimeDepthTable, Velocity
@@ -111,12 +113,22 @@ class DepthPanel(VBox):
         workspace, source = self._workspace, self._workspace.source
         before, after = workspace.section.conversion, section.conversion
 
+        def through(what: Any) -> Any:
+            recorded = before.to_time(what) if before else what
+            return after.to_depth(recorded) if after else recorded
+
+        def slip(name: str, profile: SlipProfile, drawing: Drawing) -> SlipProfile:
+            points = np.array(drawing.pick(FAULT, name).pieces[0])
+            points = _along(points[:: 1 if points[0, 1] <= points[-1, 1] else -1])
+            return profile.carried(workspace.section.to_rock(points), section.to_rock(through(points)))
+
         def convert(drawing: Drawing, plan: Plan) -> tuple[Drawing, Plan]:
-            if before:
-                drawing, plan = before.to_time(drawing), _converted(plan, before.to_time, section.x.mean())
-            if after:
-                drawing, plan = after.to_depth(drawing), _converted(plan, after.to_depth, section.x.mean())
-            return drawing, plan
+            names = drawing.names(FAULT)
+            steps = tuple(
+                replace(step, slip={name: slip(name, one, drawing) for name, one in step.slip.items() if name in names})
+                for step in plan.steps
+            )
+            return through(drawing), _converted(replace(plan, steps=steps), through, section.x.mean())
 
         if source:
             source = replace(source, velocity=after.velocity if after else None, dz=after.dz if after else None)
@@ -148,6 +160,12 @@ class DepthPanel(VBox):
         names = ", ".join(self._workspace.drawing.names(HORIZON)) or "none picked yet"
         layers = f" Layers are bounded by {names}." if self.model.value == LAYERS else ""
         self.state.value = HINT.format((IN_TIME.format(section.velocity) if section.is_time else state) + layers)
+
+
+def _along(line: np.ndarray, parts: int = 16) -> np.ndarray:
+    """A line with each segment divided into equal parts, shape (n, 2)."""
+    at = np.linspace(0, len(line) - 1, parts * (len(line) - 1) + 1)
+    return np.column_stack([np.interp(at, np.arange(len(line)), column) for column in line.T])
 
 
 def _converted(plan: Plan, convert: Callable[[ArrayLike], np.ndarray], x: float) -> Plan:
