@@ -17,11 +17,11 @@ BAR_WIDTH = 24
 HALF = 5  # iterations after which half of a step is shown as done: nobody knows how many it will take
 OPTIONS = {"allow_outside": "--allow-outside", "allow_changed": "--allow-changed"}  # as errors name them
 DEVIATIONS = {  # defaults and meanings of the options of the command ensemble
-    "horizon": (1.0, "standard deviation of the picks of horizons, in samples (1)"),
-    "fault": (1.0, "standard deviation of the picks of faults, in traces (1)"),
-    "correlation-length": (500.0, "distance along a line over which errors are alike, in metres (500)"),
-    "dip": (0.0, "standard deviation of the faults' dips, in degrees (0)"),
-    "velocity": (0.0, "standard deviation of the velocity, as a share of it (0)"),
+    "horizon": (1.0, "standard deviation of the picks of horizons, in samples (%(default)g)"),
+    "fault": (1.0, "standard deviation of the picks of faults, in traces (%(default)g)"),
+    "correlation-length": (500.0, "distance along a line over which errors are alike, in metres (%(default)g)"),
+    "dip": (0.0, "standard deviation of the faults' dips, in degrees (%(default)g)"),
+    "velocity": (0.0, "standard deviation of the velocity, as a share of it (%(default)g)"),
 }
 
 DESCRIPTION = """Restores the section of each session as its plan says, and writes into a folder:
@@ -100,8 +100,8 @@ def _add_ensemble(commands: argparse._SubParsersAction) -> None:
     ensemble.add_argument("--out", type=Path, required=True, metavar="FILE.nc", help="file for the results")
     for name, (default, meaning) in DEVIATIONS.items():
         ensemble.add_argument(f"--{name}", type=float, default=default, metavar="NUMBER", help=meaning)
-    ensemble.add_argument("--members", type=int, default=200, metavar="N", help="number of restorations (200)")
-    ensemble.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (0)")
+    ensemble.add_argument("--members", type=int, default=200, metavar="N", help="number of restorations (%(default)s)")
+    ensemble.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (%(default)s)")
     ensemble.add_argument(
         "--match",
         action="append",
@@ -153,7 +153,7 @@ def _study(options: argparse.Namespace) -> int:
             allow_changed=options.allow_changed,
         )
     except SeiswidgetsError as error:
-        bar.end(f"{options.session}: {error.text.rendered(OPTIONS)}")
+        bar.refuse(error)
         return 1
     bar.end(f"{options.session}: {result.summary}, in {options.out}")
     sys.stdout.write(f"{result}\n")
@@ -175,8 +175,7 @@ def _restore(path: Path, name: str, options: argparse.Namespace) -> bool:
         if options.handout:
             _write_handout(replay, options.out / f"{name}-handout.html")
     except SeiswidgetsError as error:
-        message = error.text.rendered(OPTIONS)
-        bar.end(message if message.startswith(str(path)) else f"{path}: {message}")
+        bar.refuse(error)
         return False
     except Exception as error:  # noqa: BLE001 - a bug in one session must not stop the others
         bar.end(f"{path}: {error!r}, which is a bug in seiswidgets; please report it with the lines below")
@@ -220,7 +219,7 @@ def _scan(options: argparse.Namespace) -> int:
             allow_changed=options.allow_changed,
         )
     except SeiswidgetsError as error:
-        bar.end(f"{options.session}: {error.text.rendered(OPTIONS)}")
+        bar.refuse(error)
         return 1
     bar.end(f"{options.session}: {len(found)} fault{'' if len(found) == 1 else 's'}, in {options.out}")
     for fault in found:
@@ -261,6 +260,11 @@ class ProgressBar:
         self._write(message)
         sys.stderr.write("\n")
         sys.stderr.flush()
+
+    def refuse(self, error: SeiswidgetsError) -> None:
+        """Replace the bar with an error, which may name the file itself."""
+        message = error.text.rendered(OPTIONS)
+        self.end(message if message.startswith(self.label) else f"{self.label}: {message}")
 
     def _write(self, text: str) -> None:
         sys.stderr.write(("\r" if self._shown else "") + text.ljust(self._shown))

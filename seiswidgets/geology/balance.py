@@ -8,10 +8,10 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
-from seiswidgets.errors import PickError, SettingError
+from seiswidgets.errors import SettingError
 from seiswidgets.geology import heave_closure
 from seiswidgets.geology.bed_lines import BedExtent, bed_extent
-from seiswidgets.geology.cutoffs import cutoffs
+from seiswidgets.geology.cutoffs import cutoffs_if_any
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.layers import layers_of
 from seiswidgets.geology.picks import IGNORE, Horizon, Interpretation
@@ -35,7 +35,7 @@ class BedBalance:
     @property
     def change(self) -> float | None:
         """Relative change of the length."""
-        return self.extent.restored_length / self.extent.length - 1 if self.extent else None
+        return self.extent.change if self.extent else None
 
     @property
     def closed(self) -> float | None:
@@ -45,12 +45,12 @@ class BedBalance:
     @property
     def beta(self) -> float | None:
         """Present-day over restored width."""
-        return self.extent.width / self.extent.restored_width if self.extent else None
+        return self.extent.beta if self.extent else None
 
     @property
     def extension(self) -> float | None:
         """Present-day over restored width, less 1."""
-        return None if self.beta is None else self.beta - 1
+        return self.extent.extension if self.extent else None
 
 
 @dataclass(frozen=True)
@@ -177,13 +177,8 @@ def _bed(restored: Restoration, interpretation: Interpretation, horizon: Horizon
 
 def _heave(interpretation: Interpretation, horizon: Horizon) -> float:
     """The sum of a horizon's heaves, in the section's unit of x."""
-    total = 0.0
-    for fault in interpretation.faults:
-        try:
-            total += sum(place.heave for place in cutoffs(fault, horizon)) if fault.use != IGNORE else 0.0
-        except PickError:  # they do not meet on both sides
-            continue
-    return total
+    faults = [fault for fault in interpretation.faults if fault.use != IGNORE]
+    return float(sum(place.heave for fault in faults for place in cutoffs_if_any(fault, horizon)))
 
 
 def _layers(

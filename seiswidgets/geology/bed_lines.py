@@ -28,6 +28,21 @@ class BedExtent:
     width: float
     restored_width: float
 
+    @property
+    def change(self) -> float:
+        """Relative change of the length by restoring."""
+        return self.restored_length / self.length - 1
+
+    @property
+    def beta(self) -> float:
+        """Present-day over restored width."""
+        return self.width / max(self.restored_width, np.finfo(float).tiny)
+
+    @property
+    def extension(self) -> float:
+        """Present-day over restored width, less 1."""
+        return self.beta - 1
+
 
 def bed_extent(restored: Restoration, faults: Sequence[Fault], horizon: Horizon) -> BedExtent | None:
     """Measure a horizon; None if it crosses itself or lies outside the section, or a part of it was removed.

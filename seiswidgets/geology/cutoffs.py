@@ -320,6 +320,14 @@ def cutoffs(fault: Fault, horizon: Horizon) -> tuple[CutOff, ...]:
     return tuple(found)
 
 
+def cutoffs_if_any(fault: Fault, horizon: Horizon) -> tuple[CutOff, ...]:
+    """As `cutoffs`, but none where the horizon does not reach the fault from both sides."""
+    try:
+        return cutoffs(fault, horizon)
+    except PickError:
+        return ()
+
+
 def throw(fault: Fault, horizon: Horizon) -> float:
     """Vertical distance between a horizon's two cut-offs at a fault, in the section's unit of z.
 

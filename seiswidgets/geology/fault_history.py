@@ -6,8 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from seiswidgets.errors import PickError
-from seiswidgets.geology.cutoffs import CutOff, cutoffs
+from seiswidgets.geology.cutoffs import CutOff, cutoffs_if_any
 from seiswidgets.geology.picks import IGNORE, Fault, Interpretation
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.stratigraphy import Stratigraphy
@@ -98,10 +97,7 @@ def _histories(
         for horizon in interpretation.horizons:
             if IGNORE in (fault.use, horizon.use):
                 continue
-            try:
-                places = cutoffs(fault, horizon)
-            except PickError:  # they do not meet on both sides
-                continue
+            places = cutoffs_if_any(fault, horizon)
             found += [DatedCutOff(place, ages.get(horizon.name), _slip(section, place)) for place in places]
         yield fault, sorted(found, key=lambda dated: dated.depth)
 

@@ -11,7 +11,6 @@ from seiswidgets.geology.plan import Plan, RestorationJob
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
 from seiswidgets.geology.slip_profile import SlipProfile
-from seiswidgets.geology.steps import UNFAULT
 from seiswidgets.geology.validation import checked_kind
 
 Point = tuple[float, float]
@@ -52,10 +51,11 @@ class Hypothesis:
 
 
 def with_slip(hypothesis: Hypothesis, slip: Mapping[str, SlipProfile]) -> Hypothesis:
-    """A hypothesis in which all steps that unfault prescribe a slip along some faults."""
+    """A hypothesis whose plan prescribes the slip along some faults; see `Plan.with_slip`."""
     plan = hypothesis.plan
-    steps = (replace(step, slip={**step.slip, **slip}) if step.kind == UNFAULT else step for step in plan.steps)
-    return replace(hypothesis, plan=replace(plan, steps=tuple(steps))) if slip else hypothesis
+    for fault, profile in slip.items():
+        plan = plan.with_slip(fault, profile)
+    return replace(hypothesis, plan=plan)
 
 
 def with_velocity(hypothesis: Hypothesis, factor: float) -> Hypothesis:

@@ -5,9 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from seiswidgets.core.deformation import weighted_percentiles
-from seiswidgets.errors import PickError
 from seiswidgets.geology.bed_lines import bed_extent
-from seiswidgets.geology.cutoffs import cutoffs
+from seiswidgets.geology.cutoffs import cutoffs_if_any
 from seiswidgets.geology.picks import IGNORE, Fault, Horizon, Interpretation
 from seiswidgets.geology.restoration import Restoration
 from seiswidgets.geology.section import Section
@@ -45,11 +44,7 @@ def measure_picks(interpretation: Interpretation) -> Measures:
     found: Measures = {}
     for fault in _used(interpretation.faults):
         for horizon in _used(interpretation.horizons):
-            try:
-                places = cutoffs(fault, horizon)
-            except PickError:  # they do not meet
-                continue
-            for count, place in enumerate(places, 1):
+            for count, place in enumerate(cutoffs_if_any(fault, horizon), 1):
                 about = f"{horizon.name} at {fault.name}" + (f" ({count})" if count > 1 else "")
                 found |= {(THROW, about): place.throw, (HEAVE, about): place.heave}
     return found
@@ -64,9 +59,9 @@ def measure_restoration(restored: Restoration, interpretation: Interpretation) -
         extent = bed_extent(restored, interpretation.faults, horizon)
         if extent:
             found |= {
-                (EXTENSION, horizon.name): extent.width / max(extent.restored_width, np.finfo(float).tiny) - 1,
+                (EXTENSION, horizon.name): extent.extension,
                 (BED_LENGTH, horizon.name): extent.restored_length,
-                (BED_CHANGE, horizon.name): extent.restored_length / extent.length - 1,
+                (BED_CHANGE, horizon.name): extent.change,
             }
     solved = [stage for stage in restored.stages if stage.kind in (UNFAULT, FLATTEN)]
     found[AREA_CHANGE, ""] = float(np.prod([stage.outline.area / stage.domain.outline.area for stage in solved])) - 1

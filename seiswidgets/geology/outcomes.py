@@ -1,9 +1,8 @@
 """Hypotheses side by side: how well each restores, in one table."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from seiswidgets.geology.measures import (
 )
 from seiswidgets.geology.plan import RestorationJob
 from seiswidgets.geology.restoration import Restoration
+from seiswidgets.geology.tables import Table
 from seiswidgets.geology.validation import checked_kind
 from seiswidgets.signatures import strict_keywords
 
@@ -77,7 +77,9 @@ class Comparison:
         return tuple(sorted(named, key=lambda column: column in (*MEASURED, PROBLEMS, WARNINGS)))
 
     def sorted_by(self, column: str, *, descending: bool = False) -> "Comparison":
-        """The comparison sorted by a column, by its absolute values, or by "hypothesis"; what has no value comes last.
+        """The comparison sorted by a column, or by "hypothesis"; what has no value comes last.
+
+        Changes and turns are sorted by their size, whatever their sign.
 
         Raises
         ------
@@ -88,28 +90,26 @@ class Comparison:
             return Comparison(tuple(sorted(self.outcomes, key=lambda one: one.name, reverse=descending)))
         if column not in self.columns:
             raise SettingError(f"there is no column {column!r}; there are {', '.join((NAME, *self.columns))}")
-        sizes = np.array([abs(one.values.get(column, np.nan)) for one in self.outcomes])
-        order = np.argsort(np.where(np.isnan(sizes), np.inf, -sizes if descending else sizes), kind="stable")
+        values = np.array([one.values.get(column, np.nan) for one in self.outcomes])
+        keys = (-1 if descending else 1) * (np.abs(values) if column in MEASURED else values)
+        order = np.argsort(np.where(np.isnan(keys), np.inf, keys), kind="stable")
         return Comparison(tuple(self.outcomes[index] for index in order))
 
-    def rows(self) -> list[tuple[str, ...]]:
-        """Return the table as text, its head first."""
-        cells = [
-            (one.name, *(shown(column, one.values.get(column)) for column in self.columns)) for one in self.outcomes
-        ]
-        return [(NAME, *(heading(column) for column in self.columns)), *cells]
+    @property
+    def table(self) -> Table:
+        """A row for each hypothesis, with its numbers and its verdict."""
+        units = {NAME: "", **{column: _unit(column) for column in self.columns}, "verdict": ""}
+        rows = (
+            (one.name, *(_rounded(column, one.values.get(column)) for column in self.columns), one.verdict)
+            for one in self.outcomes
+        )
+        return Table("Hypotheses", units, tuple(rows))
 
     def __str__(self) -> str:
-        rows = self.rows()
-        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in rows)
+        return str(self.table)
 
     def _repr_html_(self) -> str:
-        head, *rows = self.rows()
-        verdicts = [one.verdict for one in self.outcomes]
-        table = [_html_row("th", (*head, "verdict"))]
-        table += [_html_row("td", (*row, verdict)) for row, verdict in zip(rows, verdicts, strict=True)]
-        return f"<table>{''.join(table)}</table>"
+        return self.table._repr_html_()
 
 
 @strict_keywords
@@ -177,17 +177,22 @@ def _values(hypothesis: Hypothesis, restored: Restoration) -> dict[str, float]:
 
 def heading(column: str) -> str:
     """Heading of a column, with its unit."""
-    return f"{column} (%)" if column in SHARES else f"{column} (°)" if column == ROTATION else column
+    unit = _unit(column)
+    return column if unit == "1" else f"{column} ({unit})"
 
 
 def shown(column: str, value: float | None) -> str:
     """Text for a value of a column; a dash if there is none."""
+    number = _rounded(column, value)
+    return "–" if number is None else f"{number:.0f}" if column in (PROBLEMS, WARNINGS) else f"{number:.2f}"
+
+
+def _unit(column: str) -> str:
+    return "%" if column in SHARES else "°" if column == ROTATION else "1"
+
+
+def _rounded(column: str, value: float | None) -> float | None:
+    """A value in the unit of its column, to two decimals; None if there is none."""
     if value is None or np.isnan(value):
-        return "–"
-    if column in (PROBLEMS, WARNINGS):
-        return f"{value:.0f}"
-    return f"{round(100 * value if column in SHARES else value, 2) + 0.0:.2f}"  # + 0.0: no "-0.00"
-
-
-def _html_row(tag: str, cells: Sequence[str]) -> str:
-    return "<tr>" + "".join(f'<{tag} style="text-align: left">{escape(cell)}</{tag}>' for cell in cells) + "</tr>"
+        return None
+    return round(100 * value if column in SHARES else value, 2) + 0.0  # + 0.0: no "-0.00"

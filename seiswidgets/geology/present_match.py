@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from seiswidgets.errors import Cancelled, PickError, SeiswidgetsError
-from seiswidgets.geology.cutoffs import cutoffs
+from seiswidgets.errors import Cancelled, SeiswidgetsError
+from seiswidgets.geology.cutoffs import cutoffs_if_any
 from seiswidgets.geology.fault_traces import FaultTraces
 from seiswidgets.geology.picks import Fault, Interpretation
 from seiswidgets.geology.plan import Plan, RestorationJob
@@ -25,11 +25,7 @@ def present_profile(
     for horizon in interpretation.horizons:
         if not horizon.constrains:
             continue
-        try:
-            found = cutoffs(fault, horizon)
-        except PickError:
-            continue
-        for cutoff in found:
+        for cutoff in cutoffs_if_any(fault, horizon):
             arcs, _ = traces.arcs(traces.section.to_rock([cutoff.hanging_wall, cutoff.footwall]))
             rows[float(arcs.mean())] = float(arcs[0] - arcs[1])
     return SlipProfile(*zip(*sorted(rows.items()), strict=True)) if rows else None

@@ -1,6 +1,6 @@
 """Tables of measured values, with a unit for each column."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any, TypeAlias
@@ -47,8 +47,14 @@ class Table:
         return "\n".join([self.title, *(text.rstrip() for text in texts)])
 
     def _repr_html_(self) -> str:
+        return self.html()
+
+    def html(self, pictures: Sequence[str] = ()) -> str:
+        """HTML of the table, with a picture, as SVG, at the end of each row if there are any."""
         head = "".join(f'<th scope="col">{escape(heading)}</th>' for heading in self.headings)
-        body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in self.rows)
+        ends = [f"<td>{picture}</td>" for picture in pictures] or len(self) * [""]
+        rows = zip(self.rows, ends, strict=True)
+        body = "".join(f"<tr>{''.join(map(_cell, row))}{end}</tr>" for row, end in rows)
         return f"<table><caption>{escape(self.title)}</caption><tr>{head}</tr>{body}</table>"
 
 

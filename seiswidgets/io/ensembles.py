@@ -39,8 +39,8 @@ def ensemble(
     """Restore a section many times, with the errors of its picks drawn at random, to see how certain the results are.
 
     Each member is drawn from a seed of its own, so that results depend neither on the number of workers nor on the
-    order in which members are done, and that 200 members are the first of 1,000. A plan without steps makes no mesh:
-    only throw and heave are measured, in milliseconds.
+    order in which members are done, and that 200 members are the first of 1,000. A plan without steps makes no mesh,
+    unless a match needs one: only throw and heave are measured, in milliseconds.
 
     Parameters
     ----------
@@ -67,7 +67,8 @@ def ensemble(
     SettingError
         If ``members`` is below 1, or the executor has been shut down.
     PickError, SettingError, FlippedError
-        If the interpretation as drawn cannot be restored; what refuses a member is its ``problem`` instead.
+        If the interpretation as drawn cannot be restored, or lacks a fault that has matches; what refuses a
+        member is its ``problem`` instead.
     DataError
         If the file belongs to another ensemble, or the disk is full; what was done before is kept.
     Cancelled
@@ -89,6 +90,8 @@ def ensemble(
         (uncertainty, Uncertainty, "uncertainty"),
     ):
         validation.checked_kind(value, kind, name)
+    for fault in uncertainty.matches:
+        interpretation.fault(fault)
     members = validation.whole_number("members", members, least=1)
     drawn = Hypothesis(section, interpretation, plan or Plan())
     study = Study(drawn, uncertainty, validation.whole_number("seed", seed, least=0))

@@ -1,8 +1,8 @@
 """Members of an unfinished ensemble in a file, from which a later run continues.
 
-The file is a line of text with the fingerprint of the run, and one record for each member: its length, its checksum,
-and its arrays as NumPy writes them. Records are only appended. A record that a crash has cut short is left out, and
-overwritten.
+The file is a line of text with the version and the fingerprint of the run, and one record for each member: its
+length, its checksum, and its arrays as NumPy writes them. Records are only appended. A record that a crash has cut
+short is left out, and overwritten.
 """
 
 import errno
@@ -16,11 +16,12 @@ from types import TracebackType
 
 import numpy as np
 
+from seiswidgets import __version__
 from seiswidgets.errors import DataError
 from seiswidgets.geology.ensembles.member import Member
 from seiswidgets.io.files import write_file
 
-HEADER = "seiswidgets ensemble 1 {}\n"
+HEADER = f"seiswidgets {__version__} ensemble {{}}\n"
 RECORD = struct.Struct("<II")  # length and checksum
 LARGEST = 2**28  # bytes of a record: more is damage
 
@@ -56,8 +57,8 @@ class PartialEnsemble:
             raise DataError(f"{path} cannot be read: {error.strerror}; choose another file") from error
         if not content.startswith(header):
             raise DataError(
-                f"{path} does not hold members of this ensemble: the section, the picks, the plan, the uncertainty or "
-                "the seed differ; choose another file, or remove it"
+                f"{path} does not hold members of this ensemble: the section, the picks, the plan, the uncertainty, "
+                "the seed or the version of seiswidgets differ; choose another file, or remove it"
             )
         end = len(header)
         for member, stop in _records(content, end):

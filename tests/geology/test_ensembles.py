@@ -143,6 +143,11 @@ def test_each_member_takes_a_match_as_often_as_its_weight_says():
     assert ensemble.shares["matches"][ensemble.labels.index(("slip", "F1"))] == pytest.approx(1)
 
 
+def test_matches_of_a_fault_that_is_not_there_are_refused():
+    with pytest.raises(sw.PickError, match="no fault called 'F9'"):
+        run(sw.Uncertainty(matches={"F9": [(sw.SlipProfile([0], [50]), 1)]}), 2)
+
+
 def test_the_peaks_of_a_scan_are_matches():
     case = planar_fault()
     scan = sw.scan(case.section, case.interpretation.faults[0])
@@ -163,6 +168,18 @@ def test_pieces_go_on_ending_at_their_faults():
             ends = shapely.Point(left.coords[-1]), shapely.Point(right.coords[0])
             assert max(end.distance(fault) for end in ends) < 1e-6
             assert all(piece.intersection(fault.buffer(1e-6)).length < 1e-3 for piece in (left, right))
+
+
+def test_pieces_do_not_end_at_a_fault_that_is_ignored():
+    """Another reading of the fault, which is ignored, begins where the used one does and moves by errors of its own."""
+    case = planar_fault()
+    (fault,) = case.interpretation.faults
+    picks = sw.Interpretation([sw.Fault(fault.points, "other", use="ignore"), fault], case.interpretation.horizons)
+    study = sw.ensemble(case.section, picks, PICKS_ONLY, sw.Uncertainty(fault=4), 1).study
+    drawn = study.perturbation.hypothesis(0).interpretation
+    line = shapely.LineString(drawn.faults[1].points)
+    ends = [drawn.horizons[0].pieces[0][-1], drawn.horizons[0].pieces[1][0]]
+    assert max(line.distance(shapely.Point(end)) for end in ends) < 1e-6
 
 
 def test_depths_along_lines():

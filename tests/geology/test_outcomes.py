@@ -1,9 +1,11 @@
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 import seiswidgets as sw
+from seiswidgets.geology.outcomes import Comparison, Outcome
 
 
 @cache
@@ -48,12 +50,24 @@ def test_what_was_refused_says_why():
     assert refused.verdict in comparison()._repr_html_().replace("&#x27;", "'")
 
 
-def test_the_table_has_units_and_a_dash_where_there_is_no_value():
-    head, *rows = comparison().rows()
-    assert head[:3] == ("hypothesis", "correlation F1", "bed change (%)")
-    assert rows[1] == ("one-sided", *["–"] * (len(head) - 1))
-    assert all(len(row) == len(head) for row in rows)
-    assert "right" in str(comparison())
+def test_the_table_has_units_and_no_value_where_there_is_none():
+    table = comparison().table
+    assert table.headings[:3] == ["hypothesis", "correlation F1", "bed change (%)"]
+    assert table.rows[1][:-1] == ("one-sided", *[None] * (len(table.units) - 2))
+    assert "slip is undetermined" in str(comparison())
+
+
+def test_an_opposite_match_is_a_bad_one_but_a_loss_is_as_bad_as_a_gain():
+    hypothesis = comparison().outcomes[0].hypothesis
+    numbers = [("good", 0.5, 0.1), ("poor", 0.1, 0.02), ("opposite", -0.9, -0.2)]
+    made = Comparison(
+        tuple(
+            Outcome(replace(hypothesis, name=name), None, {"correlation F1": match, "bed change": change})
+            for name, match, change in numbers
+        )
+    )
+    assert names(made.sorted_by("correlation F1", descending=True)) == ["good", "poor", "opposite"]
+    assert names(made.sorted_by("bed change", descending=True)) == ["opposite", "good", "poor"]
 
 
 def test_what_cannot_be_compared():

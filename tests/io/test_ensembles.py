@@ -35,6 +35,31 @@ def test_an_ensemble_goes_through_netcdf(tmp_path):
     assert again["restored_depth"].sel(horizon="H2", member=1).shape == (101,)
 
 
+def test_a_horizon_that_was_removed_has_no_values(tmp_path):
+    """Stripping to the second horizon removes the first one, whose depths and lengths are unknown then."""
+    case = sw.synthetic.faulted_fold()
+    plan = sw.Plan((sw.Step("unfault"), sw.Step("strip", ("H2",))), fixed=case.fixed, spacing=400)
+    uncertainty = sw.Uncertainty(horizon=1, correlation_length=5000)
+    ensemble = sw.ensemble(case.section, case.interpretation, plan, uncertainty, 2, executor=InThisThread())
+    data = sw.to_xarray(ensemble)
+    assert data["horizon"].values.tolist() == ["H1", "H2", "H3"]
+    for name in ("extension", "extension_percentile"):
+        assert np.isnan(data[name].sel(horizon="H1")).all()
+        assert np.isfinite(data[name].sel(horizon="H3")).all()
+    np.testing.assert_array_equal(
+        data["bed_length"].sel(horizon="H2"), ensemble.values[:, ensemble.labels.index(("bed length", "H2"))]
+    )
+
+
+def test_a_file_of_another_version_is_refused(tmp_path):
+    path = tmp_path / "run.part"
+    run(partial=path)
+    _, _, rest = path.read_bytes().partition(b"ensemble")
+    path.write_bytes(b"seiswidgets 0.0.1 ensemble" + rest)
+    with pytest.raises(sw.DataError, match="the version of seiswidgets differ"):
+        run(partial=path)
+
+
 def test_a_run_continues_where_the_last_one_stopped(tmp_path):
     path = tmp_path / "run.part"
 

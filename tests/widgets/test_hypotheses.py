@@ -89,6 +89,18 @@ def test_the_table_compares_them_and_sorts_by_any_column(app, panel):
     assert "out of date" in panel.table.rows[0]["title"]
 
 
+def test_what_was_compared_stays_known_under_another_name(app, panel):
+    panel.buttons["Duplicate"].click()
+    wrong_match(app)
+    panel.compare_button.click()
+    assert panel.wait(LONG)
+    panel.name.value = "steep"
+    assert [outcome.name for outcome in panel.comparison.outcomes] == ["A", "steep"]
+    app.workspace.history.undo()
+    assert [outcome.name for outcome in panel.comparison.outcomes] == ["A", "B"]
+    assert not any(row["dim"] for row in panel.table.rows)
+
+
 def test_two_are_viewed_together(app, panel):
     panel.buttons["Duplicate"].click()
     wrong_match(app)

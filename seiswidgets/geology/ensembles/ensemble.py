@@ -13,12 +13,12 @@ from seiswidgets.geology.ensembles.shares import first_order_shares
 from seiswidgets.geology.ensembles.uncertainty import INPUTS
 from seiswidgets.geology.findings import Finding
 from seiswidgets.geology.measures import SHARES, Label, unit_of
+from seiswidgets.geology.tables import Table, Value
 
 PERCENTS = (5.0, 50.0, 95.0)
 BAR, NARROW = 120, 0.05  # css pixels of an error bar's axis; share of that which a bar takes at least
 LISTED = 5  # reasons why members have no restoration
 NUMBER = re.compile(r"-?\d[\d.,]*")
-METHOD = "first-order shares of variance by linear regression on the numbers that drew each member"
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +66,7 @@ class Ensemble:
 
     @cached_property
     def shares(self) -> dict[str, np.ndarray]:
-        """First-order share of each result's variance by input, each of shape (results,); see `shares_method`.
+        """First-order share of each result's variance by input, by linear regression, each of shape (results,).
 
         NaN where the members are too few, about 1.5 for each number that is drawn, or the result does not vary.
         """
@@ -74,11 +74,6 @@ class Ensemble:
         draws = [perturbation.explanatory(member.index) for member in self.members]
         varied = [name for name in INPUTS if getattr(uncertainty, name) and self.members]
         return first_order_shares({name: np.array([draw[name] for draw in draws]) for name in varied}, self.values)
-
-    @property
-    def shares_method(self) -> str:
-        """How the shares are computed."""
-        return METHOD
 
     @cached_property
     def depths(self) -> np.ndarray:
@@ -135,16 +130,18 @@ class Ensemble:
             for alike in ordered
         )
 
-    def rows(self) -> list[tuple[str, ...]]:
-        """A table as text: result, unit, its percentiles 5, 50 and 95, and the input that explains most of it."""
-        section, percentiles = self.study.drawn.section, self.percentiles()
-        rows = []
-        for index, (quantity, about) in enumerate(self.labels):
-            unit = "%" if quantity in SHARES else unit_of(quantity, section)
-            scale = 100 if quantity in SHARES else 1
-            numbers = [f"{scale * value:.4g}" for value in percentiles[quantity, about]]
-            rows.append((f"{quantity} {about}".strip(), unit, *numbers, self._main_input(index)))
-        return rows
+    @property
+    def table(self) -> Table:
+        """A row for each result: its unit, its percentiles 5, 50 and 95, and the input that explains most of it."""
+        units = {"result": "", "unit": "", **{f"P{percent:g}": "1" for percent in PERCENTS}, "explained most by": ""}
+        results = enumerate(self.percentiles().items())
+        return Table(self.summary, units, tuple(self._row(index, *result) for index, result in results))
+
+    def _row(self, index: int, label: Label, percentiles: np.ndarray) -> tuple[Value, ...]:
+        quantity, about = label
+        unit, scale = ("%", 100) if quantity in SHARES else (unit_of(quantity, self.study.drawn.section), 1)
+        numbers = (scale * value if np.isfinite(value) else None for value in percentiles.tolist())
+        return f"{quantity} {about}".strip(), unit, *numbers, self._main_input(index)
 
     def _main_input(self, index: int) -> str:
         shares = {name: share[index] for name, share in self.shares.items() if np.isfinite(share[index])}
@@ -161,22 +158,12 @@ class Ensemble:
         return f"{len(self.members)} members, seed {self.study.seed}{without}"
 
     def __str__(self) -> str:
-        lines = ["  ".join(row) for row in self.rows()]
-        return "\n".join([self.summary, *lines, *(finding.text for finding in self.findings)])
+        return "\n".join([str(self.table), *(finding.text for finding in self.findings)])
 
     def _repr_html_(self) -> str:
-        heads = ("result", "unit", *(f"P{percent:g}" for percent in PERCENTS), "", "explained most by")
-        percentiles = self.percentiles()
-        rows = [
-            "".join(
-                f'<td style="text-align: left">{cell}</td>' for cell in (*map(escape, row[:-1]), bar, escape(row[-1]))
-            )
-            for row, bar in zip(self.rows(), (error_bar(percentiles[label]) for label in self.labels), strict=True)
-        ]
-        head = "".join(f'<th style="text-align: left">{text}</th>' for text in heads)
-        table = "".join(f"<tr>{row}</tr>" for row in (head, *rows))
         notes = "".join(f"<li>{escape(finding.text)}</li>" for finding in self.findings[:LISTED])
-        return f"<p>{escape(self.summary)}</p><table>{table}</table>" + (f"<ul>{notes}</ul>" if notes else "")
+        table = self.table.html([error_bar(percentiles) for percentiles in self.percentiles().values()])
+        return table + (f"<ul>{notes}</ul>" if notes else "")
 
 
 def error_bar(percentiles: np.ndarray) -> str:

@@ -23,7 +23,7 @@ class PieceEnd:
     which : 0 or -1
         The first or the last point of the piece.
     fault : int
-        Index of the fault.
+        Index of the fault, among those that are not ignored.
     heading : array, shape (2,)
         Unit vector in which the piece goes on there as it was drawn, in traces and samples.
     """

@@ -16,7 +16,7 @@ from seiswidgets.geology import validation
 from seiswidgets.geology.ensembles.piece_ends import PieceEnd, brought_to_faults, piece_ends
 from seiswidgets.geology.fault_lines import NEAR
 from seiswidgets.geology.hypothesis import Hypothesis, with_slip, with_velocity
-from seiswidgets.geology.picks import AUTO, EXTEND, Ends, Fault, Horizon, Interpretation, both_ends
+from seiswidgets.geology.picks import AUTO, EXTEND, IGNORE, Ends, Fault, Horizon, Interpretation, both_ends
 from seiswidgets.geology.scan import Scan
 from seiswidgets.geology.slip_profile import SlipProfile
 
@@ -47,7 +47,7 @@ class Uncertainty:
         Of the velocity, as a share of it. In a section in depth, all depths grow with it.
     matches : dict of str to Scan, or to list of (SlipProfile, weight)
         Slips that are possible along a fault, by its name, such as the peaks of its scan: each member takes one, as
-        often as its weight says, in all steps that unfault.
+        often as its weight says, in the first step that slides along it.
 
     Raises
     ------
@@ -143,7 +143,7 @@ class Perturbation:
         horizon, turns = iter(self._errors("horizon", draw)), iter(np.radians(self.uncertainty.dip * draw["dip"]))
         fault = iter(self._errors("fault", draw))
         faults = [self._moved_fault(pick, fault, next(turns)) for pick in picks.faults]
-        lines, ends = [pick.points for pick in faults], iter(self._piece_ends)
+        lines, ends = [pick.points for pick in faults if pick.use != IGNORE], iter(self._piece_ends)
         horizons = [self._moved_horizon(pick, horizon, ends, lines) for pick in picks.horizons]
         moved = replace(self.drawn, interpretation=Interpretation(faults, horizons, picks.bodies))
         chosen = {name: self.uncertainty.choices[name][k][0] for name, k in self._chosen(draw).items()}
@@ -225,9 +225,9 @@ class Perturbation:
 
     @cached_property
     def _piece_ends(self) -> list[list[PieceEnd]]:
-        """Ends at faults of all pieces of horizons."""
+        """Ends of all pieces of horizons at faults that are not ignored."""
         picks = self.drawn.interpretation
-        faults = [fault.points for fault in picks.faults]
+        faults = [fault.points for fault in picks.faults if fault.use != IGNORE]
         pieces = (piece for pick in picks.horizons for piece in pick.pieces)
         return [list(piece_ends(piece, faults, self._cell)) for piece in pieces]
 

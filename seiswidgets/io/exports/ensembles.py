@@ -13,12 +13,14 @@ from seiswidgets.io.files import atomic_write, import_optional
 if TYPE_CHECKING:
     import xarray
 
-DIMENSIONS = {
+HORIZON = "horizon"
+DIMENSIONS = {  # what a quantity is about; others: horizons, or all
     THROW: "cutoff",
     HEAVE: "cutoff",
     ROTATION: "block",
     SLIP: "fault",
-}  # what a quantity is about; others: horizons, or all
+}
+SHARES_METHOD = "first-order shares of variance by linear regression on the numbers that drew each member"
 
 Variable = tuple[tuple[str, ...], np.ndarray, dict[str, str]]
 
@@ -33,19 +35,17 @@ def ensemble_dataset(ensemble: Ensemble) -> "xarray.Dataset":
     }
     variables: dict[str, Variable] = {}
     for quantity in dict.fromkeys(quantity for quantity, _ in ensemble.labels):
-        indices = [index for index, label in enumerate(ensemble.labels) if label[0] == quantity]
-        abouts = [ensemble.labels[index][1] for index in indices]
-        if abouts == [""]:
-            variables |= _of_quantity(ensemble, quantity, indices, ())
-        else:
-            dimension = DIMENSIONS.get(quantity, "horizon")
-            coordinates[dimension] = abouts
-            variables |= _of_quantity(ensemble, quantity, indices, (dimension,))
+        abouts = [about for name, about in ensemble.labels if name == quantity]
+        dimensions = () if abouts == [""] else (DIMENSIONS.get(quantity, HORIZON),)
+        if dimensions == (HORIZON,):
+            abouts = list(frame.horizons)  # those that were not measured included
+        coordinates |= dict.fromkeys(dimensions, abouts)
+        variables |= _of_quantity(ensemble, quantity, abouts, dimensions)
     problems = np.array([member.problem for member in ensemble.members], dtype=str)
     variables["problem"] = ("member",), problems, {"long_name": "why a member has no restoration; empty if it has one"}
     if frame.nodes.size:
         unit = {"units": section.z_unit, "long_name": "depth of restored horizons", "positive": "down"}
-        variables["restored_depth"] = ("member", "horizon", "position"), ensemble.depths, unit
+        variables["restored_depth"] = ("member", HORIZON, "position"), ensemble.depths, unit
         ratio = {"units": "1", "long_name": "present-day area over restored area"}
         variables["area_ratio"] = ("member", "z", "x"), ensemble.ratios, ratio
         coordinates["position"] = "position", frame.x, {"units": section.x_unit, "long_name": "distance"}
@@ -54,7 +54,7 @@ def ensemble_dataset(ensemble: Ensemble) -> "xarray.Dataset":
     deviations = {name: value for name, value in asdict(ensemble.study.uncertainty).items() if name != "matches"}
     attributes = {
         "seed": ensemble.study.seed,
-        "shares_method": ensemble.shares_method,
+        "shares_method": SHARES_METHOD,
         **{f"uncertainty_{name}": value for name, value in deviations.items()},
     }
     xarray = import_optional("xarray", "to make an xarray.Dataset")
@@ -69,18 +69,27 @@ def write_ensemble(ensemble: Ensemble, path: Path) -> None:
 
 
 def _of_quantity(
-    ensemble: Ensemble, quantity: str, indices: list[int], dimensions: tuple[str, ...]
+    ensemble: Ensemble, quantity: str, abouts: list[str], dimensions: tuple[str, ...]
 ) -> dict[str, Variable]:
-    """Values, percentiles and shares of variance of a quantity."""
-    name, chosen = quantity.replace(" ", "_"), np.array(indices) if dimensions else indices[0]
+    """Values, percentiles and shares of variance of a quantity, NaN for what has none."""
+    places = {label: index for index, label in enumerate(ensemble.labels)}
+    indices = [places.get((quantity, about), -1) for about in abouts]
+
+    def chosen(results: np.ndarray) -> np.ndarray:
+        found = np.pad(results, ((0, 0), (0, 1)), constant_values=np.nan)[:, indices]
+        return found if dimensions else found[:, 0]
+
+    name, about = (
+        quantity.replace(" ", "_"),
+        {"units": "1", "long_name": f"share of the variance of {quantity} by input"},
+    )
     described = {"units": unit_of(quantity, ensemble.study.drawn.section), "long_name": MEANING[quantity]}
-    percentiles = np.array([ensemble.percentiles()[label] for label in ensemble.labels]).T[:, chosen]
+    percentiles = np.array(list(ensemble.percentiles().values())).T
     variables: dict[str, Variable] = {
-        name: (("member", *dimensions), ensemble.values[:, chosen], described),
-        f"{name}_percentile": (("percent", *dimensions), percentiles, described),
+        name: (("member", *dimensions), chosen(ensemble.values), described),
+        f"{name}_percentile": (("percent", *dimensions), chosen(percentiles), described),
     }
     if ensemble.shares:
-        shares = np.array(list(ensemble.shares.values()))[:, chosen]
-        about = {"units": "1", "long_name": f"share of the variance of {quantity} by input"}
+        shares = chosen(np.array(list(ensemble.shares.values())))
         variables[f"{name}_share"] = ("input", *dimensions), shares, about
     return variables

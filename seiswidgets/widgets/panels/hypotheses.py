@@ -2,7 +2,7 @@
 
 from base64 import b64encode
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from html import escape
 from io import BytesIO
@@ -81,7 +81,7 @@ class HypothesesPanel(VBox):
 
     def __init__(self, workspace: Workspace):
         self._workspace, self._runner = workspace, JobRunner()
-        self._compared: dict[str, Compared] = {}
+        self._compared: dict[str, Compared] = {}  # by the name that the hypothesis had
         self._sorted: tuple[str, bool] = "", False
         self.name = Text(description="name", continuous_update=False, layout=Layout(width="200px"))
         self.buttons = {label: self._button(label) for label in BUTTONS}
@@ -120,17 +120,25 @@ class HypothesesPanel(VBox):
     @property
     def comparison(self) -> Comparison:
         """The outcomes known so far, in the order of the table."""
-        hypotheses = alternatives(self._workspace.document)
-        known = Comparison(tuple(self._compared[one.name].outcome for one in hypotheses if one.name in self._compared))
+        known = Comparison(tuple(filter(None, map(self._outcome, alternatives(self._workspace.document)))))
         column, descending = self._sorted
         return known.sorted_by(column, descending=descending) if column in (NAME, *known.columns) else known
 
     def _missing(self) -> list[Alternative]:
         """The hypotheses whose outcome is not known, or out of date."""
-        return [one for one in alternatives(self._workspace.document) if not self._is_fresh(one)]
+        return [one for one in alternatives(self._workspace.document) if not self._fresh(one)]
 
-    def _is_fresh(self, one: Alternative) -> bool:
-        return one.name in self._compared and self._compared[one.name].fits(self._workspace.section, one)
+    def _fresh(self, one: Alternative) -> Compared | None:
+        """The outcome of a hypothesis as it is now, whatever its name was; None if it is not known."""
+        section = self._workspace.section
+        return next((compared for compared in self._compared.values() if compared.fits(section, one)), None)
+
+    def _outcome(self, one: Alternative) -> Outcome | None:
+        """The outcome of a hypothesis under its present name, perhaps out of date; None if it was not compared."""
+        compared = self._fresh(one) or self._compared.get(one.name)
+        if compared is None:
+            return None
+        return replace(compared.outcome, hypothesis=replace(compared.outcome.hypothesis, name=one.name))
 
     def _take_outcomes(self, compared: list[Compared]) -> None:
         self._compared |= {one.alternative.name: one for one in compared}
@@ -162,10 +170,6 @@ class HypothesesPanel(VBox):
         except SettingError as error:
             self._say(TROUBLE.format(escape(str(error))))
             self.name.value = old
-        else:
-            if old in self._compared:
-                self._compared[self._workspace.document.name] = self._compared.pop(old)
-            self._update()
 
     def _choose(self, name: str) -> None:
         names = [one.name for one in alternatives(self._workspace.document)]
@@ -188,7 +192,7 @@ class HypothesesPanel(VBox):
         """Show the hypotheses of the document, with what is known about them."""
         document, comparison = self._workspace.document, self.comparison
         hypotheses = {one.name: one for one in alternatives(document)}
-        order = [outcome.name for outcome in self._renamed(comparison)]
+        order = [outcome.name for outcome in comparison.outcomes]
         order += [name for name in hypotheses if name not in order]
         if not self._sorted[0]:
             order = list(hypotheses)
@@ -206,28 +210,22 @@ class HypothesesPanel(VBox):
             self.other.options = others
             self.other.value = kept if kept in others else next(iter(others), None)
 
-    def _renamed(self, comparison: Comparison) -> list[Alternative]:
-        """The hypotheses of outcomes, under their present names."""
-        by_outcome = {id(one.outcome): name for name, one in self._compared.items()}
-        named = {one.name: one for one in alternatives(self._workspace.document)}
-        return [named[by_outcome[id(outcome)]] for outcome in comparison.outcomes]
-
     def _row(self, one: Alternative, columns: tuple[str, ...]) -> TableRow:
-        outcome = self._compared[one.name].outcome if one.name in self._compared else None
+        outcome = self._outcome(one)
         cells = tuple(shown(column, outcome.values.get(column) if outcome else None) for column in columns)
-        is_chosen, is_fresh = one.name == self._workspace.document.name, self._is_fresh(one)
+        is_chosen, is_fresh = one.name == self._workspace.document.name, self._fresh(one) is not None
         title = "not compared yet" if outcome is None else outcome.verdict if is_fresh else "out of date: press Compare"
         return TableRow(one.name, cells, title, is_chosen, outcome is not None and not is_fresh)
 
     def _show_view(self) -> None:
         """Draw the shown hypothesis and another one in the background, once both have been compared."""
-        shown_name, other = self._workspace.document.name, self.other.value
-        if self.view.value is None or other is None:
+        if self.view.value is None or self.other.value is None:
             return
         if self._missing():
             self.compare()  # which comes back here
             return
-        pair = self._compared[shown_name].outcome, self._compared[other].outcome
+        outcomes = {outcome.name: outcome for outcome in self.comparison.outcomes}
+        pair = outcomes[self._workspace.document.name], outcomes[self.other.value]
         work = partial(_draw, self.view.value, *pair, self._workspace.drawing.colours)
         self._runner.submit(Job(work, lambda html: setattr(self.picture, "value", html), self._fail))
 
