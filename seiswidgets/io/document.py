@@ -6,11 +6,11 @@ import reprlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, ParamSpec, TypeVar
 
 import numpy as np
 
-from seiswidgets.errors import DataError
+from seiswidgets.errors import DataError, SeiswidgetsError, Text
 
 MOST_TEXT_BYTES = 64 * 2**20  # the order of magnitude of an exported horizon of a 3-D survey
 MOST_JSON_BYTES = 8 * 2**20  # about 200,000 points; as Python values they may take 25 times as much memory
@@ -22,6 +22,7 @@ REMEDY = "correct it in a text editor, or go back to an earlier copy"
 
 Point = tuple[float, float]
 Points = tuple[Point, ...]
+Arguments = ParamSpec("Arguments")
 Value = TypeVar("Value")
 Default = TypeVar("Default")
 
@@ -145,6 +146,17 @@ class Entry:
     def optional(self, key: str, read: Callable[["Entry"], Value], default: Default) -> Value | Default:
         """Read a member, or return the default if it is null or missing."""
         return default if self.members().get(key) is None else read(self[key])
+
+    def build(
+        self, make: Callable[Arguments, Value], *arguments: Arguments.args, **keywords: Arguments.kwargs
+    ) -> Value:
+        """Call a constructor; its errors are given the file's name and the location."""
+        try:
+            return make(*arguments, **keywords)
+        except SeiswidgetsError as error:
+            message = shortened(error.text)
+            text = error.text if message == error.text else Text(message)
+            raise DataError(f"{self.full_location}: ", text, kind=error.kind, pick=error.pick) from error
 
     def members(self) -> dict[str, Any]:
         """The value as a dict."""

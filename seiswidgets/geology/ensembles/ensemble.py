@@ -189,13 +189,9 @@ def _percentiles(values: np.ndarray, percents: Sequence[float]) -> np.ndarray:
 
 def _mean(values: np.ndarray) -> np.ndarray:
     """Mean over the first axis without NaN; NaN where there is none."""
-    known = np.isfinite(values)
-    count = known.sum(axis=0)
-    return np.where(count > 0, np.where(known, values, 0).sum(axis=0) / np.maximum(count, 1), np.nan)
+    return np.ma.masked_invalid(values).mean(axis=0).filled(np.nan)
 
 
 def _spread(values: np.ndarray) -> np.ndarray:
     """Standard deviation over the first axis without NaN; NaN where there are fewer than two."""
-    count = np.isfinite(values).sum(axis=0)
-    squares = np.where(np.isfinite(values), (values - _mean(values)) ** 2, 0).sum(axis=0)
-    return np.where(count > 1, np.sqrt(squares / np.maximum(count - 1, 1)), np.nan)
+    return np.ma.masked_invalid(values).std(axis=0, ddof=1).filled(np.nan)

@@ -2,27 +2,19 @@
 
 import os
 import re
-from collections.abc import Callable, Iterator
-from dataclasses import asdict, fields, replace
+from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
-from reprlib import repr as brief
-from typing import TYPE_CHECKING, Any, ParamSpec, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from seiswidgets import __version__
-from seiswidgets.errors import DataError, SeiswidgetsError, Text
-from seiswidgets.geology.beyond import FREE
+from seiswidgets.errors import DataError
 from seiswidgets.geology.bodies import SALT
-from seiswidgets.geology.flexure import Isostasy
 from seiswidgets.geology.hypothesis import FIRST_NAME
-from seiswidgets.geology.lithology import Lithology
 from seiswidgets.geology.picks import AUTO_ENDS, CONSTRAIN, Ends
 from seiswidgets.geology.plan import Plan
-from seiswidgets.geology.slip_profile import SlipProfile
-from seiswidgets.geology.steps import Step
-from seiswidgets.geology.stratigraphy import Layer, Stratigraphy
-from seiswidgets.geology.vertical_shear import LENGTH
-from seiswidgets.geology.weights import Weights
-from seiswidgets.io.document import Entry, Points, json_text, read_json, shortened
+from seiswidgets.io.document import Entry, Points, json_text, read_json
+from seiswidgets.io.session.plans import read_plan, with_holds
 from seiswidgets.io.session.saved_picks import SavedHypothesis, SavedPick
 from seiswidgets.io.session.sources import FILE, SectionSource, relative_path, section_path
 from seiswidgets.io.session.velocities import read_velocity, velocity_as_json
@@ -33,9 +25,6 @@ if TYPE_CHECKING:
 FORMAT, VERSION = "seiswidgets session", 2
 NOT_IN_PLAN = ("fixed", "pins", "regional")  # saved with the picks: points of the section
 DEEPEST = 4  # lists within lists in the choices of a source
-
-Arguments = ParamSpec("Arguments")
-Value = TypeVar("Value")
 
 
 class HypothesisFields(TypedDict):
@@ -174,7 +163,7 @@ def _hypothesis(entry: Entry) -> HypothesisFields:
         "faults": picks.optional("faults", _faults, ()),
         "horizons": picks.optional("horizons", _horizons, ()),
         "bodies": picks.optional("bodies", _faults, ()),
-        "plan": _with_holds(entry.optional("plan", _plan, Plan()), picks),
+        "plan": with_holds(entry.optional("plan", read_plan, Plan()), picks),
     }
 
 
@@ -188,7 +177,7 @@ def _hypotheses(entry: Entry) -> tuple[str, tuple[SavedHypothesis, ...], tuple[S
     if len(set(names)) < len(names):
         raise entry.error("a list of hypotheses, each with a name of its own")
     others = [
-        _build(one, SavedHypothesis, name, **_hypothesis(one))
+        one.build(SavedHypothesis, name, **_hypothesis(one))
         for index, (name, one) in enumerate(zip(names, entries, strict=True))
         if index != own[0]
     ]
@@ -213,28 +202,16 @@ def _migrated(document: Entry) -> Entry:
     return Entry(value, document.path)
 
 
-def _build(
-    entry: Entry, make: Callable[Arguments, Value], *arguments: Arguments.args, **keywords: Arguments.kwargs
-) -> Value:
-    """Call a constructor; its errors are given the file's name and the location."""
-    try:
-        return make(*arguments, **keywords)
-    except SeiswidgetsError as error:
-        message = shortened(error.text)
-        text = error.text if message == error.text else Text(message)
-        raise DataError(f"{entry.full_location}: ", text, kind=error.kind, pick=error.pick) from error
-
-
 def _source(entry: Entry, allow_outside: bool) -> SectionSource:
     kind = entry["kind"].text()
     if kind == FILE:
         path = entry["path"]
-        name = str(_build(path, section_path, _folder(path.path), path.text(), allow_outside))
+        name = str(path.build(section_path, _folder(path.path), path.text(), allow_outside))
     else:
         name = entry["name"].text()
     choices = entry.optional("choices" if kind == FILE else "arguments", _choices, {})
-    velocity = entry.optional("velocity", lambda model: _build(model, read_velocity, model), None)
-    return _build(entry, SectionSource, kind, name, choices, velocity, entry.optional("dz", Entry.number, None))
+    velocity = entry.optional("velocity", lambda model: model.build(read_velocity, model), None)
+    return entry.build(SectionSource, kind, name, choices, velocity, entry.optional("dz", Entry.number, None))
 
 
 def _choices(entry: Entry) -> dict[str, object]:
@@ -280,7 +257,7 @@ def _picks(entry: Entry, read_pieces: Callable[[Entry], tuple[Points, ...]]) -> 
         use = item.optional("use", Entry.text, CONSTRAIN)
         ends = item.optional("ends", _ends, AUTO_ENDS)
         body = item.optional("kind", Entry.text, SALT)
-        picks[name] = _build(item, SavedPick, name, read_pieces(item), colour, visible, use, ends, body)
+        picks[name] = item.build(SavedPick, name, read_pieces(item), colour, visible, use, ends, body)
     return tuple(picks.values())
 
 
@@ -289,97 +266,3 @@ def _ends(entry: Entry) -> Ends:
     if len(ends) != 2:
         raise entry.error("a list of two texts")
     return ends[0], ends[1]
-
-
-def _plan(entry: Entry) -> Plan:
-    defaults = Plan()
-    return _build(
-        entry,
-        Plan,
-        steps=entry.optional("steps", _steps, defaults.steps),
-        weights=entry.optional("weights", _weights, defaults.weights),
-        solver=entry.optional("solver", Entry.text, defaults.solver),
-        weighting=entry.optional("weighting", Entry.text, None),
-        spacing=entry.optional("spacing", Entry.number, None),
-        max_iterations=entry.optional("max_iterations", _count, None),
-        stratigraphy=entry.optional("stratigraphy", _stratigraphy, None),
-        isostasy=entry.optional("isostasy", _isostasy, None),
-        load_beyond=entry.optional("load_beyond", Entry.text, defaults.load_beyond),
-    )
-
-
-def _stratigraphy(entry: Entry) -> Stratigraphy:
-    return _build(entry, Stratigraphy, [_layer(layer) for layer in entry["layers"].items()])
-
-
-def _layer(entry: Entry) -> Layer:
-    rock = entry["lithology"]
-    phi0, c, density = (rock[name].number() for name in ("phi0", "c", "grain_density"))
-    name, source = (rock.optional(text, Entry.text, "") for text in ("name", "source"))
-    lithology = _build(rock, Lithology, phi0, c, density, name, source)
-    top, depth = entry.optional("top", Entry.text, None), entry.optional("water_depth", _level, 0.0)
-    return _build(entry, Layer, top, entry["age"].number(), lithology, depth)
-
-
-def _isostasy(entry: Entry) -> Isostasy:
-    numbers = {name: entry[name].number() for name in entry.members() if name != "sea_level"}
-    known = {field.name for field in fields(Isostasy)}
-    if not numbers.keys() <= known:
-        raise DataError(f"{entry.full_location} may hold only {', '.join(sorted(known))}")
-    return _build(entry, Isostasy, sea_level=entry.optional("sea_level", Entry.number, None), **numbers)
-
-
-def _with_holds(plan: Plan, picks: Entry) -> Plan:
-    return replace(
-        plan,
-        fixed=picks.optional("fixed", Entry.point, None),
-        pins=picks.optional("pins", Entry.points, ()),
-        regional=picks.optional("regional", _level, None),
-    )
-
-
-def _level(entry: Entry) -> float | Points:
-    return entry.points() if isinstance(entry.value, list) else entry.number()
-
-
-def _count(entry: Entry) -> int:
-    if type(entry.value) is not int or entry.value < 1:
-        raise entry.error("a whole number of 1 or more")
-    return entry.value
-
-
-def _steps(entry: Entry) -> tuple[Step, ...]:
-    return tuple(
-        _build(
-            step,
-            Step,
-            step["kind"].text(),
-            step.optional("picks", lambda picks: tuple(name.text() for name in picks.items()), ()),
-            step.optional("datum", _level, None),
-            step.optional("on", Entry.flag, True),
-            step.optional("slip", _slip, {}),
-            step.optional("horizons", lambda names: tuple(name.text() for name in names.items()), ()),
-            step.optional("by", Entry.text, LENGTH),
-            step.optional("age", Entry.number, None),
-            step.optional("beyond", Entry.text, FREE),
-        )
-        for step in entry.items()
-    )
-
-
-def _slip(entry: Entry) -> dict[str, SlipProfile]:
-    return {name: _build(entry[name], SlipProfile, *_numbers(entry[name], "s", "slip")) for name in entry.members()}
-
-
-def _numbers(entry: Entry, *names: str) -> Iterator[tuple[float, ...]]:
-    return (tuple(item.number() for item in entry[name].items()) for name in names)
-
-
-def _weights(entry: Entry) -> Weights:
-    known = [field.name for field in fields(Weights)]
-    for name in entry.members():
-        if name not in known:
-            raise DataError(
-                f"{entry.full_location} has {brief(name)}, which is not a weight; the weights are {', '.join(known)}"
-            )
-    return _build(entry, Weights, **{name: entry[name].number() for name in entry.members()})
